@@ -1,5 +1,6 @@
 /* Vectors of doubles: what cameras, meshes and the truth compute with.
- * Everything is by value and none of it can fail. GL's own matrices come from cglm instead. */
+ * Everything is by value and none of it can fail. GL's own matrices come from cglm instead, whose types
+ * vec2 and vec3 are why the constructors here are called v2 and v3. */
 #ifndef TEXEL_VEC_H
 #define TEXEL_VEC_H
 
@@ -20,16 +21,16 @@ typedef struct {
     Vec3 origin, direction;
 } Ray;
 
-static inline Vec2 vec2(double x, double y) { return (Vec2){x, y}; }
-static inline Vec3 vec3(double x, double y, double z) { return (Vec3){x, y, z}; }
-static inline Vec3 vec3_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline Vec3 vec3_sub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline Vec3 vec3_scale(Vec3 a, double s) { return vec3(a.x * s, a.y * s, a.z * s); }
-static inline Vec3 vec3_multiply(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
+static inline Vec2 v2(double x, double y) { return (Vec2){x, y}; }
+static inline Vec3 v3(double x, double y, double z) { return (Vec3){x, y, z}; }
+static inline Vec3 vec3_add(Vec3 a, Vec3 b) { return v3(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline Vec3 vec3_sub(Vec3 a, Vec3 b) { return v3(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline Vec3 vec3_scale(Vec3 a, double s) { return v3(a.x * s, a.y * s, a.z * s); }
+static inline Vec3 vec3_multiply(Vec3 a, Vec3 b) { return v3(a.x * b.x, a.y * b.y, a.z * b.z); }
 static inline Vec3 vec3_mix(Vec3 a, Vec3 b, double t) { return vec3_add(a, vec3_scale(vec3_sub(b, a), t)); }
 static inline double vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
-    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 static inline double vec3_length(Vec3 a) { return sqrt(vec3_dot(a, a)); }
 static inline Vec3 vec3_normalize(Vec3 a) { return vec3_scale(a, 1.0 / vec3_length(a)); }
