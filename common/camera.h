@@ -22,10 +22,11 @@ Ray camera_ray(const Camera *camera, int width, int height, double x, double y);
  * points in front of a perspective eye. */
 Vec2 camera_project(const Camera *camera, int width, int height, Vec3 p);
 
-/* GL's matrices for the same picture (cglm's layout: column-major, floats computed from doubles). */
+/* GL's matrices for the same picture (cglm's layout: column-major, floats computed from doubles). They need
+ * near < far and, in perspective, 0 < near. */
 void camera_matrices(const Camera *camera, int width, int height, mat4 view, mat4 projection);
 
-/* The camera t of the way from a to b: eye, target, up, angle and height interpolated linearly. */
+/* The camera t of the way from a to b, two of one kind: every number interpolated linearly. */
 Camera camera_mix(const Camera *a, const Camera *b, double t);
 
 #endif

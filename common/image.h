@@ -60,5 +60,6 @@ void image_sample(const Image *image, double u, double v, double *out);
 /* The sRGB transfer function (IEC 61966-2-1), one channel, both ways, and what an 8-bit file keeps of it. */
 double srgb_encode(double linear);
 double srgb_decode(double encoded);
+unsigned char srgb_byte(float linear); /* 255 srgb_encode, clipped to 0..255, rounded to nearest */
 
 #endif

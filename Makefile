@@ -1,0 +1,83 @@
+# Texel by Texel: every command. `make help` lists them.
+
+B := build
+LESSONS := $(notdir $(wildcard lessons/[0-9][0-9]-*))
+NUMBERS := $(foreach lesson,$(LESSONS),$(firstword $(subst -, ,$(lesson))))
+lesson_of = $(filter $(1)-%,$(LESSONS))
+
+ifneq ($(V),1)
+Q := @
+say = @printf '  %-8s %s\n' $(1) $(2)
+endif
+
+# The project's own flags; CFLAGS, CXXFLAGS and LDFLAGS are the user's and come after them.
+PACKAGES := OpenImageIO glfw3 osmesa cglm
+TEXEL_FLAGS := -Wall -Wextra -Wpedantic -O2 -g -fPIC -MMD -MP -Icommon
+TEXEL_CFLAGS := -std=c17 $(TEXEL_FLAGS)
+TEXEL_CXXFLAGS := -std=c++20 $(TEXEL_FLAGS)
+TEXEL_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
+LINK_TEXEL = -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(B)/libtexel.so $(LESSONS:%=$(B)/%) assets ## build everything
+
+help: ## list these commands
+	@grep -hE '^[a-zA-Z0-9_%-]+:.*## ' Makefile | sed -E 's/:.*## /\t/' | awk -F'\t' '{printf "make %-14s %s\n", $$1, $$2}'
+
+# ---- The library ----
+
+COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c common/*.cpp))
+
+$(B)/obj/%.c.o: %.c
+	$(call say,CC,$<)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -c $< -o $@
+
+$(B)/obj/%.cpp.o: %.cpp
+	$(call say,CXX,$<)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(CXX) $(TEXEL_CXXFLAGS) $(CXXFLAGS) -c $< -o $@
+
+# A shared library, so that linking a lesson takes no time.
+$(B)/libtexel.so: $(COMMON_OBJECTS)
+	$(call say,LINK,$@)
+	$(Q)$(CXX) -shared $(CXXFLAGS) $(LDFLAGS) $^ $(TEXEL_LIBS) -o $@
+
+# ---- Lessons: one folder, one program; test_*.c beside them are tests ----
+
+lesson_sources = $(filter-out $(wildcard lessons/$(1)/test_*.c),$(wildcard lessons/$(1)/*.c))
+
+define LESSON_RULES
+$(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(B)/libtexel.so
+	$$(call say,LINK,$$@)
+	$$(Q)$$(CC) $$(CFLAGS) $$(LDFLAGS) $$^ $$(LINK_TEXEL) -o $$@
+endef
+$(foreach lesson,$(LESSONS),$(eval $(call LESSON_RULES,$(lesson))))
+
+$(NUMBERS): %: all ## (a lesson's number) open the lesson in a window
+	$(Q)$(B)/$(call lesson_of,$*)
+
+-include assets/assets.mk
+-include tests/cases.mk
+-include tests/tests.mk
+-include common/report.mk
+
+assets: $(ASSETS)
+
+# ---- What a machine needs ----
+
+install: ## install the Debian packages of packages.txt that are missing
+	$(Q)sh tests/install
+
+doctor: ## say what is missing on this machine
+	$(Q)sh tests/doctor
+
+clean: ## remove what was made
+	rm -rf $(B)
+
+.PHONY: all help assets install doctor clean $(NUMBERS)
+
+-include $(shell find $(B) -name '*.d' 2>/dev/null)

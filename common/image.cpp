@@ -1,0 +1,457 @@
+/* Images by OpenImageIO. The only C++ in common: it stays behind the C interface of image.h. */
+#define _Noreturn [[noreturn]] /* C++ has no word for it that fail.h could share */
+extern "C" {
+#include "image.h"
+#include "fail.h"
+}
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vector>
+
+/* The reason that a function hands back: one line, in a buffer of each thread's own. */
+__attribute__((format(printf, 1, 2))) static const char *reason(const char *format, ...) {
+    static thread_local char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+/* ---- Memory ---------------------------------------------------------------------------------------- */
+
+Image image_create(int width, int height, int channels) {
+    if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
+        fail("an image of %dx%d pixels: a side must be 1 to %d", width, height, IMAGE_SIDE_MAX);
+    if (channels < 1 || channels > 4) fail("an image of %d channels: there must be 1 to 4", channels);
+    Image image = {width, height, channels, 32, NAN, NAN, nullptr};
+    image.pixels = (float *)allocate((size_t)width * height, channels * sizeof(float));
+    return image;
+}
+
+void image_destroy(Image *image) {
+    free(image->pixels);
+    *image = Image{};
+}
+
+/* ---- The sRGB transfer function -------------------------------------------------------------------- */
+
+double srgb_encode(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+double srgb_decode(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/* Encoding to bytes without pow: where each code begins in linear light, and for each of 4096 stretches of
+ * 0..1 the code at its start. A stretch holds at most one beginning, for the curve is nowhere steeper than
+ * 12.92 x 255 / 4096 = 0.8 codes a stretch. */
+struct ByteEncoder {
+    static constexpr int STRETCHES = 4096;
+    float begins[257];
+    unsigned char first[STRETCHES + 1];
+
+    ByteEncoder() {
+        begins[0] = -INFINITY;
+        begins[256] = INFINITY;
+        for (int code = 1; code < 256; code++) begins[code] = (float)srgb_decode((code - 0.5) / 255);
+        for (int i = 0, code = 0; i <= STRETCHES; i++) {
+            while (begins[code + 1] <= (float)i / STRETCHES) code++;
+            first[i] = (unsigned char)code;
+        }
+    }
+};
+static const ByteEncoder byte_encoder;
+
+unsigned char srgb_byte(float linear) {
+    if (!(linear > 0)) return 0; /* so is NaN, which an 8-bit file cannot hold */
+    if (linear >= 1) return 255;
+    int code = byte_encoder.first[(int)(linear * ByteEncoder::STRETCHES)];
+    return (unsigned char)(code + (linear >= byte_encoder.begins[code + 1]));
+}
+
+/* ---- Sampling -------------------------------------------------------------------------------------- */
+
+/* The two texels around the coordinate u of a repeated row of `size`, and the way from one to the other. */
+struct Neighbours {
+    int low, high;
+    double way;
+};
+
+static Neighbours neighbours(double u, int size) {
+    double x = (u - floor(u)) * size - 0.5; /* wrapped first, so that a large u still fits an int */
+    int low = (int)floor(x);
+    return {low < 0 ? size - 1 : low, low + 1 < size ? low + 1 : 0, x - low};
+}
+
+void image_sample(const Image *image, double u, double v, double *out) {
+    Neighbours x = neighbours(u, image->width), y = neighbours(v, image->height);
+    const float *a = image_at(image, x.low, y.low), *b = image_at(image, x.high, y.low);
+    const float *c = image_at(image, x.low, y.high), *d = image_at(image, x.high, y.high);
+    for (int i = 0; i < image->channels; i++) {
+        double bottom = a[i] + ((double)b[i] - a[i]) * x.way, top = c[i] + ((double)d[i] - c[i]) * x.way;
+        out[i] = bottom + (top - bottom) * y.way;
+    }
+}
+
+/* ---- Reading --------------------------------------------------------------------------------------- */
+
+/* While one of these lives, nothing reaches standard error: libpng prints a line of its own there, and a
+ * program should say one line, ours. One at a time, for the whole process has but one standard error. */
+class Silence {
+    static std::mutex one;
+    std::lock_guard<std::mutex> lock{one};
+    int saved = dup(STDERR_FILENO);
+
+  public:
+    Silence() {
+        int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (saved >= 0 && nothing >= 0) dup2(nothing, STDERR_FILENO);
+        if (nothing >= 0) close(nothing);
+    }
+    ~Silence() {
+        if (saved < 0) return;
+        dup2(saved, STDERR_FILENO);
+        close(saved);
+    }
+    Silence(const Silence &) = delete;
+};
+std::mutex Silence::one;
+
+using File = std::unique_ptr<FILE, int (*)(FILE *)>;
+
+/* A PNG is a row of chunks: length, name, data, checksum. The last is named IEND. */
+static bool png_has_end(FILE *file) {
+    unsigned char head[8], checksum[4];
+    if (fseek(file, 8, SEEK_SET)) return false;
+    while (fread(head, sizeof head, 1, file) == 1) {
+        if (memcmp(head + 4, "IEND", 4) == 0) return fread(checksum, sizeof checksum, 1, file) == 1;
+        long length = (long)head[0] << 24 | head[1] << 16 | head[2] << 8 | head[3];
+        if (fseek(file, length + 4, SEEK_CUR)) return false;
+    }
+    return false;
+}
+
+/* A JPEG is a row of segments, each a marker FF xx, a length and data; the coded image, which follows a
+ * segment of its own, holds no marker but stuffed zeros and restarts. The last marker is FF D9. Following
+ * the segments keeps us from taking a thumbnail's end for the image's, or from minding what comes after. */
+static bool jpeg_has_end(FILE *file) {
+    if (fseek(file, 2, SEEK_SET)) return false;
+    for (;;) {
+        int c = getc_unlocked(file);
+        while (c != 0xff && c != EOF) c = getc_unlocked(file);
+        while (c == 0xff) c = getc_unlocked(file);
+        if (c == EOF) return false;
+        if (c == 0xd9) return true;
+        if (c == 0 || c == 1 || (c >= 0xd0 && c <= 0xd8)) continue; /* these have no length */
+        int high = getc_unlocked(file), low = getc_unlocked(file);
+        if (low == EOF || fseek(file, (high << 8 | low) - 2, SEEK_CUR)) return false;
+    }
+}
+
+/* What can be said of a file before its pixels are decoded: NULL, or the reason why it is refused. Decoders
+ * make up what a truncated PNG or JPEG lacks, so the end is looked for here. */
+static const char *check_whole(FILE *file) {
+    unsigned char start[8] = {};
+    if (fread(start, 1, sizeof start, file) == 0) return "the file is empty";
+    bool png = memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0, jpeg = memcmp(start, "\xff\xd8\xff", 3) == 0;
+    if (png && !png_has_end(file)) return "the file is truncated: a PNG ends with an IEND chunk";
+    if (jpeg && !jpeg_has_end(file)) return "the file is truncated: a JPEG ends with an end marker";
+    return nullptr;
+}
+
+static const char *check_size(const OIIO::ImageSpec &spec, int channels) {
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+        return reason("the image has no pixels: %dx%d", spec.width, spec.height);
+    if (spec.width > IMAGE_SIDE_MAX || spec.height > IMAGE_SIDE_MAX)
+        return reason("the image is too large: %dx%d pixels, at most %d a side", spec.width, spec.height,
+                      IMAGE_SIDE_MAX);
+    if (spec.depth > 1) return reason("the image is a volume, %d pixels deep", spec.depth);
+    if (channels > 4) return reason("the image has %d channels, at most 4 are read", channels);
+    if ((int64_t)spec.width * spec.height * channels * (int64_t)sizeof(float) > (int64_t)1 << 30)
+        return reason("the image is too large: %dx%d pixels of %d channels, more than 1 GiB as floats",
+                      spec.width, spec.height, channels);
+    return nullptr;
+}
+
+/* A number that the file keeps as text, NAN when it keeps none. */
+static const char *read_number(const OIIO::ImageSpec &spec, const char *name, double *number) {
+    *number = NAN;
+    const OIIO::ParamValue *attribute = spec.find_attribute(name);
+    if (!attribute) return nullptr;
+    std::string text = attribute->get_string();
+    const char *end = text.data() + text.size();
+    auto [stop, error] = std::from_chars(text.data(), end, *number); /* unlike strtod, in every locale */
+    if (error != std::errc() || stop != end || !std::isfinite(*number)) {
+        for (char &c : text)
+            if ((unsigned char)c < ' ') c = '?'; /* a reason is one line */
+        return reason("its %s is no number: \"%.40s\"", name, text.c_str());
+    }
+    return nullptr;
+}
+
+/* Whether a file's numbers are sRGB. It may say so; if not, integers are and floats are not. */
+static bool is_srgb(const OIIO::ImageSpec &spec) {
+    std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    if (space.empty()) return !spec.format.is_floating_point();
+    return strncasecmp(space.c_str(), "lin", 3) != 0 && strcasecmp(space.c_str(), "scene_linear") != 0;
+}
+
+/* Every number that an integer of the file can become, so that decoding is exact and quick. */
+static std::vector<float> integer_table(int count, bool srgb) {
+    std::vector<float> table(count);
+    for (int i = 0; i < count; i++) {
+        double stored = (double)i / (count - 1);
+        table[i] = (float)(srgb ? srgb_decode(stored) : stored);
+    }
+    return table;
+}
+
+/* Reads the first `channels` channels as floats, the top row first. */
+static bool read_floats(OIIO::ImageInput &input, int channels, bool srgb, float *out) {
+    const OIIO::ImageSpec &spec = input.spec();
+    size_t count = (size_t)spec.width * spec.height * channels;
+    if (spec.format == OIIO::TypeDesc::UINT8) {
+        std::vector<uint8_t> codes(count);
+        if (!input.read_image(0, 0, 0, channels, spec.format, codes.data())) return false;
+        std::vector<float> table = integer_table(1 << 8, srgb);
+        for (size_t i = 0; i < count; i++) out[i] = table[codes[i]];
+    } else if (spec.format == OIIO::TypeDesc::UINT16) {
+        std::vector<uint16_t> codes(count);
+        if (!input.read_image(0, 0, 0, channels, spec.format, codes.data())) return false;
+        std::vector<float> table = integer_table(1 << 16, srgb);
+        for (size_t i = 0; i < count; i++) out[i] = table[codes[i]];
+    } else {
+        if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, out)) return false;
+        if (srgb)
+            for (size_t i = 0; i < count; i++) out[i] = (float)srgb_decode(out[i]);
+    }
+    return true;
+}
+
+/* The body of image_read: may throw what OpenImageIO and its libraries throw. */
+static const char *read_or_throw(Image *image, const char *path, ImageKind kind) {
+    struct stat about;
+    if (stat(path, &about)) return strerror(errno);
+    if (S_ISDIR(about.st_mode)) return strerror(EISDIR);
+    if (!S_ISREG(about.st_mode)) return "not a regular file";
+    File file(fopen(path, "rb"), fclose);
+    if (!file) return strerror(errno);
+    const char *broken = check_whole(file.get());
+
+    OIIO::ImageSpec wish;
+    wish["oiio:UnassociatedAlpha"] = 1; /* colours as they are stored, not multiplied by alpha */
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &wish);
+    if (!input) {
+        OIIO::geterror(); /* fetched, or OpenImageIO prints it at the end of the program */
+        return broken ? broken : "not an image, or a broken one";
+    }
+    const OIIO::ImageSpec &spec = input->spec();
+    int channels = kind == IMAGE_RAW ? spec.nchannels : kind == IMAGE_HEIGHT ? 1 : spec.nchannels < 3 ? 1 : 3;
+    const char *refused = check_size(spec, channels);
+    if (!refused) refused = broken;
+    double scale = NAN, base = NAN;
+    if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:scale", &scale);
+    if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:base", &base);
+    if (refused) return refused;
+
+    std::vector<float> stored((size_t)spec.width * spec.height * channels);
+    if (!read_floats(*input, channels, kind == IMAGE_COLOUR && is_srgb(spec), stored.data())) {
+        input->geterror();
+        return "the file is truncated or broken: not all of its pixels can be read";
+    }
+    for (size_t i = 0; i < stored.size(); i++)
+        if (!std::isfinite(stored[i]))
+            return reason("not finite at column %zu, row %zu", i / channels % spec.width,
+                          i / channels / spec.width);
+
+    Image result = image_create(spec.width, spec.height, kind == IMAGE_COLOUR ? 3 : channels);
+    size_t bytes = spec.format.is_floating_point() ? 4 : spec.format.size();
+    result.bits = bytes == 1 ? 8 : bytes == 2 ? 16 : 32;
+    result.scale = scale;
+    result.base = base;
+    for (int y = 0; y < spec.height; y++) { /* the file's first row is the top one, ours the bottom one */
+        const float *from = &stored[(size_t)(spec.height - 1 - y) * spec.width * channels];
+        float *to = image_at(&result, 0, y);
+        if (result.channels == channels)
+            memcpy(to, from, (size_t)spec.width * channels * sizeof(float));
+        else
+            for (int x = 0; x < spec.width; x++) to[3 * x] = to[3 * x + 1] = to[3 * x + 2] = from[x];
+    }
+    *image = result;
+    return nullptr;
+}
+
+const char *image_read(Image *image, const char *path, ImageKind kind) {
+    try {
+        Silence silence;
+        return read_or_throw(image, path, kind);
+    } catch (const std::exception &exception) {
+        return reason("cannot be read: %s", exception.what());
+    }
+}
+
+/* ---- Writing --------------------------------------------------------------------------------------- */
+
+/* Creates a file of an unused hidden name in the folder of path, and says that name. */
+static File create_beside(const char *path, std::string *name) {
+    const char *slash = strrchr(path, '/');
+    std::string folder = slash ? std::string(path, slash + 1) : "";
+    for (int i = 0;; i++) {
+        *name = folder + ".texel-" + std::to_string(getpid()) + "-" + std::to_string(i);
+        FILE *file = fopen(name->c_str(), "wbx"); /* x: fails if it exists */
+        if (file || errno != EEXIST) return File(file, fclose);
+    }
+}
+
+/* Makes the file appear whole or not at all: written under another name, then renamed. */
+static const char *store(const std::vector<unsigned char> &bytes, const char *path) {
+    std::string name;
+    File file = create_beside(path, &name);
+    if (!file) return reason("cannot be written: %s", strerror(errno));
+    bool written = fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    int error = errno; /* of the first call that failed */
+    if (fclose(file.release()) && written) written = false, error = errno;
+    if (written && rename(name.c_str(), path)) written = false, error = errno;
+    if (written) return nullptr;
+    unlink(name.c_str());
+    return reason("cannot be written: %s", strerror(error));
+}
+
+/* Encodes pixels, the top row first, in the format of path's ending, in memory: so every failure of the disk
+ * is ours to see. Nothing goes in that differs from run to run. */
+static const char *encode(const char *path, const OIIO::ImageSpec &spec, const void *pixels) {
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
+    if (!output || !output->supports("ioproxy")) {
+        OIIO::geterror();
+        return "cannot be written: no image format has this ending";
+    }
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    output->set_ioproxy(&memory);
+    bool encoded = output->open(path, spec) && output->write_image(spec.format, pixels);
+    encoded &= output->close();
+    if (!encoded) {
+        output->geterror();
+        return "cannot be written: the image does not fit this format";
+    }
+    return store(bytes, path);
+}
+
+static bool has_ending(const char *path, const char *ending) {
+    size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+/* One row after the other, the top one first, each number through `convert`; of each pixel the first
+ * `channels` (more than the image has: its grey repeated). */
+template <typename Number, typename Convert>
+static std::vector<Number> converted(const Image *image, int channels, Convert convert) {
+    std::vector<Number> result;
+    result.reserve((size_t)image->width * image->height * channels);
+    for (int y = image->height - 1; y >= 0; y--)
+        for (int x = 0; x < image->width; x++) {
+            const float *pixel = image_at(image, x, y);
+            for (int c = 0; c < channels; c++)
+                result.push_back(convert(pixel[channels > image->channels ? 0 : c]));
+        }
+    return result;
+}
+
+static OIIO::ImageSpec spec_of(const Image *image, int channels, OIIO::TypeDesc type) {
+    OIIO::ImageSpec spec(image->width, image->height, channels, type);
+    spec["compression"] = "none"; /* of EXR: floats hardly shrink, and it costs five times the time */
+    spec["png:compressionLevel"] = 1;
+    spec["oiio:UnassociatedAlpha"] = 1;
+    return spec;
+}
+
+static const char *write_floats(const Image *image, const char *path, int channels, OIIO::ImageSpec spec) {
+    return encode(path, spec, converted<float>(image, channels, [](float x) { return x; }).data());
+}
+
+/* The shortest text that reads back as the same double. */
+static std::string number_text(double number) {
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, number).ptr);
+}
+
+static float unit(float x) { return x > 0 ? x < 1 ? x : 1 : 0; } /* NaN becomes 0 */
+
+/* Runs a body that may throw, with nothing printed by libraries. */
+template <typename Body> static const char *guarded(Body body) {
+    try {
+        Silence silence;
+        return body();
+    } catch (const std::exception &exception) {
+        return reason("cannot be written: %s", exception.what());
+    }
+}
+
+const char *image_write(const Image *image, const char *path) {
+    return guarded([&]() -> const char * {
+        if (has_ending(path, ".exr"))
+            return write_floats(image, path, image->channels,
+                                spec_of(image, image->channels, OIIO::TypeDesc::FLOAT));
+        if (has_ending(path, ".hdr"))
+            return write_floats(image, path, 3, spec_of(image, 3, OIIO::TypeDesc::FLOAT));
+        int channels = image->channels < 3 ? 1 : 3;
+        OIIO::ImageSpec spec = spec_of(image, channels, OIIO::TypeDesc::UINT8);
+        spec["oiio:ColorSpace"] = "sRGB";
+        if (has_ending(path, ".jpg") || has_ending(path, ".jpeg")) spec["compression"] = "jpeg:95";
+        return encode(path, spec, converted<uint8_t>(image, channels, srgb_byte).data());
+    });
+}
+
+const char *image_write_raw(const Image *image, const char *path, int bits) {
+    return guarded([&]() -> const char * {
+        OIIO::TypeDesc type = has_ending(path, ".exr") ? OIIO::TypeDesc::FLOAT
+                              : bits == 16             ? OIIO::TypeDesc::UINT16
+                                                       : OIIO::TypeDesc::UINT8;
+        if (type != OIIO::TypeDesc::FLOAT && !has_ending(path, ".png"))
+            return "cannot be written: raw numbers are kept as .png or .exr";
+        OIIO::ImageSpec spec = spec_of(image, image->channels, type);
+        if (!std::isnan(image->scale)) spec["texel:scale"] = number_text(image->scale);
+        if (!std::isnan(image->base)) spec["texel:base"] = number_text(image->base);
+        if (type == OIIO::TypeDesc::FLOAT) return write_floats(image, path, image->channels, spec);
+        if (type == OIIO::TypeDesc::UINT16)
+            return encode(path, spec, converted<uint16_t>(image, image->channels, [](float x) {
+                                          return (uint16_t)(unit(x) * 65535.0 + 0.5);
+                                      }).data());
+        return encode(path, spec, converted<uint8_t>(image, image->channels, [](float x) {
+                                      return (uint8_t)(unit(x) * 255.0 + 0.5);
+                                  }).data());
+    });
+}
+
+/* ---- Or the end of the program ---------------------------------------------------------------------- */
+
+Image image_load(const char *path, ImageKind kind) {
+    Image image;
+    const char *refused = image_read(&image, path, kind);
+    if (refused) fail("%s: %s", path, refused);
+    return image;
+}
+
+void image_save(const Image *image, const char *path) {
+    const char *refused = image_write(image, path);
+    if (refused) fail("%s: %s", path, refused);
+}

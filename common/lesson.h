@@ -1,0 +1,128 @@
+/* What a lesson is: data. A lesson has scenes; a scene has techniques (ways to draw it), views and a truth.
+ *
+ * lesson.c of a lesson fills one Lesson in and hands it to lesson_run, which gives it a command line (see
+ * lesson_run's --help), a window, pictures, exact pictures, and the table of speed against error. */
+#ifndef TEXEL_LESSON_H
+#define TEXEL_LESSON_H
+
+#include "draw.h"
+#include "truth.h"
+
+typedef struct Lesson Lesson;
+typedef struct Scene Scene;
+typedef struct Technique Technique;
+
+/* What the user chose for a scene's loading. The paths are never NULL where the scene names an image. */
+typedef struct {
+    const char *colour, *height; /* full paths: the user's own, or the scene's in the assets folder */
+    const char *other[2];        /* full paths of scene->other */
+    double scale;                /* --scale, or NAN */
+} Options;
+
+/* A camera by name. */
+typedef struct {
+    const char *name;
+    Camera camera;
+} View;
+
+/* One picture that is being made. */
+typedef struct {
+    const Scene *scene;
+    const Technique *technique;
+    double knob;      /* the technique's number; 0 where it has none */
+    void *data;       /* what the scene's load returned */
+    const View *view; /* where the camera started: in a window the camera may have moved since */
+    Camera camera;
+    int width, height; /* pixels */
+    Program *program;  /* in use while draw runs; NULL in prepare and paint */
+} Frame;
+
+/* One way to draw a scene. Either vertex and fragment name shader files of the lesson (or of common), and the
+ * scene's draw is called with them in use; or paint makes the picture in C. */
+struct Technique {
+    const char *name, *what; /* what: one line for --list and the report */
+    const char *vertex, *fragment;
+    int variant; /* the lesson's own enum; also the shader's uniform int variant */
+    struct {
+        const char *name;
+        double values[8];                /* positive, ended by a 0 if there are fewer */
+    } knob;                              /* also the shader's uniform float knob */
+    void (*prepare)(const Frame *frame); /* C before GL, timed apart (prepare_ns_per_pixel) */
+    /* C instead of GL. The picture is the scene's background on entry; lookup.pixels is NULL while timed. */
+    void (*paint)(const Frame *frame, Picture *picture);
+};
+
+/* A number that a scene is made of, for --list: a reader must be able to build the same scene from these. */
+typedef struct {
+    const char *name;
+    double value;
+    const char *unit;
+} Fact;
+
+/* One technique with one knob, seen from each view: what a scene's own metrics are made of. */
+typedef struct {
+    const View *view;
+    Picture picture;
+    Image exact;           /* the box's reference */
+    const Sample *centres; /* the truth along each pixel's centre ray, row 0 first */
+} Shot;
+
+typedef struct {
+    const Frame *frame; /* technique, knob, data, size; its camera and view belong to the first shot */
+    const Shot *shots;
+    int count;
+} Shots;
+
+typedef struct Table Table;
+
+/* Adds a row of the tidy table for the technique and knob of the shots; view NULL where the figure belongs to
+ * none. The value must be finite. */
+void table_add(Table *table, const Shots *shots, const View *view, const char *metric, double value,
+               const char *unit);
+
+/* Adds a point to a curve that the report plots, a line for each technique, knob and view: y against x. */
+void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
+                 double x, const char *y_name, double y);
+
+enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, KNOBS_MAX = 8, FACTS_MAX = 12 };
+
+struct Scene {
+    const char *name, *what;
+    Technique techniques[TECHNIQUES_MAX]; /* the first is what costs are held against */
+    View views[VIEWS_MAX];
+    Vec3 background;
+    const char *colour, *height; /* assets by file name; --colour and --height replace them */
+    const char *other[2];        /* assets that cannot be replaced */
+    Fact facts[FACTS_MAX];
+    int samples;    /* rays a pixel of the truth; 0: 32 */
+    bool gaussian;  /* report against the Gaussian pixel filter too */
+    Camera path[2]; /* for `flicker`, 16 frames from one to the other; none where both are 0 */
+    void *(*load)(const Options *options); /* with the context current */
+    void (*unload)(void *data);
+    void (*draw)(
+        const Frame *frame); /* view_projection, model (identity), eye, knob, variant, size are set */
+    Sample (*truth)(const void *data, Ray ray);
+    Vec2 (*texels)(
+        const void *data); /* width and height of the texture that u and v are errors in; or NULL */
+    void (*measure)(const Shots *shots, Table *table); /* the scene's own metrics; or NULL */
+};
+
+struct Lesson {
+    const char *name, *title; /* name: the folder's, NN-name */
+    Scene scenes[SCENES_MAX];
+};
+
+/* A lesson's main: reads the command line, does it, and returns the program's exit status. */
+int lesson_run(const Lesson *lesson, int argc, char **argv);
+
+/* The scale of a height map: --scale, or what its file says, or 0.1. Its base: what the file says, or 1. */
+double options_scale(const Options *options, const Image *height);
+
+/* How many techniques, views, scenes and knob values there are (a technique without a knob has one value, 0).
+ */
+int technique_count(const Scene *scene);
+int view_count(const Scene *scene);
+int scene_count(const Lesson *lesson);
+int knob_count(const Technique *technique);
+
+#endif

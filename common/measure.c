@@ -1,0 +1,414 @@
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
+#include "measure.h"
+
+#include "compare.h"
+#include "fail.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { ROUNDS = 9, PATH_FRAMES = 16 };
+
+typedef struct {
+    const View *view;
+    Exact box, gaussian; /* gaussian.image.pixels is NULL where the scene does not ask for it */
+    Sample *centres;
+    Image known; /* what is left for metrics: see hide_unknown */
+    double known_share;
+} Reference;
+
+/* One technique with one value of its knob. */
+typedef struct {
+    const Technique *technique;
+    double knob;
+    bool wanted; /* chosen, and not only here because costs are held against it */
+} Variant;
+
+enum { VARIANTS_MAX = TECHNIQUES_MAX * KNOBS_MAX };
+
+typedef struct {
+    Stage stage;
+    const Choice *choice;
+    const Orders *orders;
+    Table *table;
+    Variant variants[VARIANTS_MAX];
+    int variant_count;
+    Reference references[VIEWS_MAX];
+    int view_count;
+    double pixels_drawn[VARIANTS_MAX][VIEWS_MAX];
+} Session;
+
+/* ---- Progress ---- */
+
+static struct {
+    int done, total;
+    struct timespec start, said;
+} progress;
+
+static double seconds_since(struct timespec then) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - then.tv_sec) + 1e-9 * (double)(now.tv_nsec - then.tv_nsec);
+}
+
+static void progress_step(const Lesson *lesson, const char *what) {
+    progress.done++;
+    bool last = progress.done >= progress.total;
+    if (!last && seconds_since(progress.said) < 2.0) return;
+    clock_gettime(CLOCK_MONOTONIC, &progress.said);
+    double elapsed = seconds_since(progress.start);
+    fprintf(stderr, "%s: %d of %d (%s), about %.0f s left\n", lesson->name, progress.done, progress.total,
+            what, elapsed / progress.done * (progress.total - progress.done));
+}
+
+/* ---- Files ---- */
+
+static void save_picture(const Image *image, const char *folder, const char *name, const char *suffix,
+                         bool exr) {
+    char *png = text("%s/%s%s.png", folder, name, suffix),
+         *floats = text("%s/%s%s.exr", folder, name, suffix);
+    image_save(image, png);
+    if (exr) image_save(image, floats);
+    free(png);
+    free(floats);
+}
+
+char *picture_name(const Frame *frame) {
+    char *name = text("%s-%s-%s", frame->scene->name, frame->view->name, frame->technique->name);
+    if (!frame->technique->knob.name) return name;
+    char *longer = text("%s-%g", name, frame->knob);
+    free(name);
+    return longer;
+}
+
+/* ---- The references ---- */
+
+static Frame frame_of(const Session *session, const Variant *variant, const View *view) {
+    return stage_frame(&session->stage, variant->technique, variant->knob, view, session->choice->width,
+                       session->choice->height);
+}
+
+static Reference reference_create(Session *session, const View *view) {
+    const Scene *scene = session->stage.scene;
+    const Truth *truth = &session->stage.truth;
+    int width = session->choice->width, height = session->choice->height;
+    int samples = scene->samples ? scene->samples : 32;
+    Reference reference = {.view = view, .known_share = 1.0};
+    reference.box = truth_render(truth, &view->camera, width, height, samples, FILTER_BOX);
+    if (scene->gaussian)
+        reference.gaussian = truth_render(truth, &view->camera, width, height, samples, FILTER_GAUSSIAN);
+    reference.centres = truth_centres(truth, &view->camera, width, height);
+    size_t count = (size_t)width * height, unknown = 0;
+    for (size_t i = 0; i < count; i++) unknown += reference.centres[i].unknown;
+    reference.known_share = 1.0 - (double)unknown / (double)count;
+    if (reference.known_share == 0.0) fail("%s-%s: the truth knows no pixel", scene->name, view->name);
+    return reference;
+}
+
+static void reference_destroy(Reference *reference) {
+    image_destroy(&reference->box.image);
+    image_destroy(&reference->gaussian.image);
+    free(reference->centres);
+}
+
+static void reference_report(Session *session, const Reference *reference) {
+    if (session->orders->truth) {
+        char *name = text("%s-%s", session->stage.scene->name, reference->view->name);
+        save_picture(&reference->box.image, session->orders->truth, name, "-truth", true);
+        free(name);
+    }
+    if (!session->table) return;
+    table_set(session->table, session->stage.scene->name, "truth", 0);
+    table_row(session->table, reference->view->name, "truth_rmse", reference->box.rmse, "linear");
+    if (reference->gaussian.image.pixels)
+        table_row(session->table, reference->view->name, "truth_rmse_gaussian", reference->gaussian.rmse,
+                  "linear");
+}
+
+/* ---- Error ---- */
+
+/* Where the truth knows nothing the picture is made equal to it, so that no error arises there; the means are
+ * then taken over what is known alone. */
+static void hide_unknown(Image *picture, const Image *exact, const Sample *centres) {
+    size_t count = (size_t)picture->width * picture->height;
+    for (size_t i = 0; i < count; i++)
+        if (centres[i].unknown) memcpy(picture->pixels + 3 * i, exact->pixels + 3 * i, 3 * sizeof(float));
+}
+
+static void report_difference(Session *session, const Frame *frame, Image *picture, const Exact *exact,
+                              const Reference *reference, const char *suffix) {
+    const char *view = frame->view->name;
+    Difference difference;
+    Image map;
+    double share = reference->known_share;
+    if (share < 1.0) hide_unknown(picture, &exact->image, reference->centres);
+    const char *reason = compare(picture, &exact->image, &difference, &map);
+    char *name = picture_name(frame);
+    if (reason) fail("%s: %s", name, reason);
+    const struct {
+        const char *metric, *unit;
+        double value;
+    } rows[] = {{"rmse", "linear", difference.rmse / sqrt(share)},
+                {"psnr_db", "dB", fmin(100.0, difference.psnr_db + 10.0 * log10(share))},
+                {"flip", "1", difference.flip / share},
+                {"max_abs", "linear", difference.max_abs}};
+    for (int i = 0; session->table && i < 4; i++) {
+        char *metric = text("%s%s", rows[i].metric, suffix);
+        table_row(session->table, view, metric, rows[i].value, rows[i].unit);
+        free(metric);
+    }
+    if (session->orders->errors && !*suffix) {
+        Image heat = compare_heat(&map);
+        save_picture(&heat, session->orders->errors, name, "-error", false);
+        image_destroy(&heat);
+    }
+    image_destroy(&map);
+    free(name);
+}
+
+/* The distance in texels between what was looked up and what should have been, over the pixels whose centre
+ * both say is hit. */
+static void report_lookup(Session *session, const Frame *frame, const Picture *picture,
+                          const Reference *reference) {
+    Vec2 texels = frame->scene->texels(frame->data);
+    size_t count = (size_t)frame->width * frame->height, both = 0, mismatch = 0, known = 0;
+    double sum = 0.0, largest = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        const float *lookup = picture->lookup.pixels + 4 * i;
+        const Sample *exact = &reference->centres[i];
+        if (exact->unknown) continue;
+        known++;
+        mismatch += exact->hit != (lookup[3] > 0.5f);
+        if (!exact->hit || lookup[3] <= 0.5f) continue;
+        double du = ((double)lookup[0] - exact->u) * texels.x, dv = ((double)lookup[1] - exact->v) * texels.y;
+        both++;
+        sum += du * du + dv * dv;
+        largest = fmax(largest, du * du + dv * dv);
+    }
+    if (!both)
+        fail("%s/%s: no pixel of the picture looks anything up that the truth hits", frame->scene->name,
+             frame->technique->name);
+    const char *view = frame->view->name;
+    table_row(session->table, view, "uv_error_texels_rms", sqrt(sum / (double)both), "texels");
+    table_row(session->table, view, "uv_error_texels_max", sqrt(largest), "texels");
+    table_row(session->table, view, "coverage_error_percent", 100.0 * (double)mismatch / (double)known, "%");
+}
+
+static double count_hits(const Image *lookup) {
+    size_t count = (size_t)lookup->width * lookup->height, hits = 0;
+    for (size_t i = 0; i < count; i++) hits += lookup->pixels[4 * i + 3] > 0.5f;
+    return hits ? (double)hits : (double)count;
+}
+
+/* One variant from all views: pictures, their errors, and the scene's own metrics. */
+static void measure_errors(Session *session, int v) {
+    const Variant *variant = &session->variants[v];
+    const Scene *scene = session->stage.scene;
+    Shot shots[VIEWS_MAX];
+    Frame first = frame_of(session, variant, session->references[0].view);
+    if (session->table) table_set(session->table, scene->name, variant->technique->name, variant->knob);
+    for (int i = 0; i < session->view_count; i++) {
+        Reference *reference = &session->references[i];
+        Frame frame = frame_of(session, variant, reference->view);
+        Picture picture = picture_create(frame.width, frame.height, true);
+        stage_draw(&session->stage, &frame, &picture);
+        session->pixels_drawn[v][i] = count_hits(&picture.lookup);
+        if (session->orders->render) {
+            char *name = picture_name(&frame);
+            save_picture(&picture.colour, session->orders->render, name, "", true);
+            free(name);
+        }
+        if (session->table && scene->texels) report_lookup(session, &frame, &picture, reference);
+        if (session->table || session->orders->errors)
+            report_difference(session, &frame, &picture.colour, &reference->box, reference, "");
+        if (session->table && scene->gaussian)
+            report_difference(session, &frame, &picture.colour, &reference->gaussian, reference, "_gaussian");
+        shots[i] = (Shot){reference->view, picture, reference->box.image, reference->centres};
+        progress_step(session->stage.lesson, scene->name);
+    }
+    if (session->table && scene->measure)
+        scene->measure(&(Shots){&first, shots, session->view_count}, session->table);
+    for (int i = 0; i < session->view_count; i++) picture_destroy(&shots[i].picture);
+}
+
+/* ---- Flicker ---- */
+
+/* The change of (picture - exact) from one frame of the path to the next, summed over all of them. The
+ * path is drawn at half the size; the noise of the truth, the same at a pixel in every frame, mostly cancels.
+ */
+static void measure_flicker(Session *session) {
+    const Scene *scene = session->stage.scene;
+    int width = (session->choice->width + 1) / 2, height = (session->choice->height + 1) / 2;
+    size_t count = (size_t)width * height * 3;
+    View view = {.name = "path"};
+    double *sums = allocate((size_t)session->variant_count, sizeof(double));
+    Picture picture = picture_create(width, height, false);
+    float *before = allocate(count * (size_t)session->variant_count, sizeof(float));
+    for (int k = 0; k < PATH_FRAMES; k++) {
+        view.camera = camera_mix(&scene->path[0], &scene->path[1], k / (PATH_FRAMES - 1.0));
+        int samples = scene->samples ? scene->samples : 32;
+        Exact exact = truth_render(&session->stage.truth, &view.camera, width, height, samples, FILTER_BOX);
+        for (int v = 0; v < session->variant_count; v++) {
+            const Variant *variant = &session->variants[v];
+            Frame frame =
+                stage_frame(&session->stage, variant->technique, variant->knob, &view, width, height);
+            stage_draw(&session->stage, &frame, &picture);
+            float *last = before + count * (size_t)v;
+            for (size_t i = 0; i < count; i++) {
+                float error = picture.colour.pixels[i] - exact.image.pixels[i], change = error - last[i];
+                if (k > 0) sums[v] += (double)change * change;
+                last[i] = error;
+            }
+        }
+        image_destroy(&exact.image);
+        progress_step(session->stage.lesson, "flicker");
+    }
+    for (int v = 0; v < session->variant_count; v++) {
+        const Variant *variant = &session->variants[v];
+        if (!variant->wanted) continue;
+        table_set(session->table, scene->name, variant->technique->name, variant->knob);
+        table_row(session->table, "path", "flicker", sqrt(sums[v] / ((PATH_FRAMES - 1.0) * (double)count)),
+                  "linear");
+    }
+    free(before);
+    free(sums);
+    picture_destroy(&picture);
+}
+
+/* ---- Speed ---- */
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* All variants from one view take turns, so that what else the machine does falls on all alike. */
+static void measure_speed(Session *session, int view_index) {
+    const View *view = session->references[view_index].view;
+    int count = session->variant_count;
+    double(*draw)[ROUNDS] = allocate((size_t)count, sizeof *draw);
+    double(*ratio)[ROUNDS] = allocate((size_t)count, sizeof *ratio);
+    double *fastest = allocate((size_t)count, sizeof *fastest),
+           *prepare = allocate((size_t)count, sizeof *prepare);
+    Picture scratch = picture_create(session->choice->width, session->choice->height, false);
+    for (int round = -1; round < ROUNDS; round++) { /* round -1 warms up and is not counted */
+        for (int v = 0; v < count; v++) {
+            Frame frame = frame_of(session, &session->variants[v], view);
+            Cost cost = stage_time(&session->stage, &frame, &scratch);
+            if (round < 0) continue;
+            draw[v][round] = cost.draw_ns;
+            ratio[v][round] = cost.draw_ns / draw[0][round];
+            fastest[v] = round ? fmin(fastest[v], cost.draw_ns) : cost.draw_ns;
+            prepare[v] = round ? fmin(prepare[v], cost.prepare_ns) : cost.prepare_ns;
+        }
+    }
+    for (int v = 0; v < count; v++) {
+        const Variant *variant = &session->variants[v];
+        if (!variant->wanted) continue;
+        double pixels = session->pixels_drawn[v][view_index];
+        qsort(ratio[v], ROUNDS, sizeof(double), by_size);
+        table_set(session->table, session->stage.scene->name, variant->technique->name, variant->knob);
+        table_row(session->table, view->name, "ns_per_pixel", fastest[v] / pixels, "ns");
+        table_row(session->table, view->name, "cost_ratio", ratio[v][ROUNDS / 2], "1");
+        if (variant->technique->prepare)
+            table_row(session->table, view->name, "prepare_ns_per_pixel", prepare[v] / pixels, "ns");
+    }
+    free(draw);
+    free(ratio);
+    free(fastest);
+    free(prepare);
+    picture_destroy(&scratch);
+}
+
+/* ---- All of it ---- */
+
+static bool chosen(const char *choice, const char *name) { return !choice || strcmp(choice, name) == 0; }
+
+static void choose_variants(Session *session) {
+    const Scene *scene = session->stage.scene;
+    const Choice *choice = session->choice;
+    for (int t = 0; t < technique_count(scene); t++) {
+        const Technique *technique = &scene->techniques[t];
+        bool wanted = chosen(choice->technique, technique->name);
+        bool one_knob = choice->knob > 0.0 && technique->knob.name; /* of the list or not */
+        for (int k = 0; k < (one_knob ? 1 : knob_count(technique)); k++) {
+            double knob = one_knob ? choice->knob : technique->knob.values[k];
+            if (wanted || (t == 0 && k == 0)) /* costs are held against the first */
+                session->variants[session->variant_count++] = (Variant){technique, knob, wanted};
+        }
+    }
+}
+
+static int choose_views(const Scene *scene, const Choice *choice, const View *views[VIEWS_MAX]) {
+    if (choice->custom) {
+        views[0] = choice->custom;
+        return 1;
+    }
+    int count = 0;
+    for (int i = 0; i < view_count(scene); i++)
+        if (chosen(choice->view, scene->views[i].name)) views[count++] = &scene->views[i];
+    return count;
+}
+
+static bool has_path(const Scene *scene) { return scene->path[0].far > 0.0; }
+
+static void measure_scene(Session *session) {
+    const Scene *scene = session->stage.scene;
+    const Orders *orders = session->orders;
+    const View *views[VIEWS_MAX];
+    session->view_count = choose_views(scene, session->choice, views);
+    if (!session->view_count) return;
+    choose_variants(session);
+    for (int i = 0; i < session->view_count; i++) {
+        session->references[i] = reference_create(session, views[i]);
+        reference_report(session, &session->references[i]);
+        progress_step(session->stage.lesson, "truth");
+    }
+    if (orders->render || orders->errors || orders->measure)
+        for (int v = 0; v < session->variant_count; v++)
+            if (session->variants[v].wanted) measure_errors(session, v);
+    if (!orders->measure) return;
+    if (has_path(scene) && !session->choice->view && !session->choice->custom) measure_flicker(session);
+    for (int i = 0; i < session->view_count; i++) {
+        measure_speed(session, i);
+        progress_step(session->stage.lesson, "speed");
+    }
+}
+
+/* The steps that progress_step will be called for, of one scene. */
+static int count_steps(const Scene *scene, const Choice *choice) {
+    const View *views[VIEWS_MAX];
+    Session session = {.stage = {.scene = scene}, .choice = choice};
+    choose_variants(&session);
+    return choose_views(scene, choice, views) * (2 + session.variant_count) +
+           (has_path(scene) ? PATH_FRAMES : 0);
+}
+
+void measure_all(const Lesson *lesson, const Options *options, const Choice *choice, const Orders *orders) {
+    clock_gettime(CLOCK_MONOTONIC, &progress.start);
+    progress.said = progress.start;
+    progress.done = progress.total = 0;
+    for (int i = 0; i < scene_count(lesson); i++)
+        if (chosen(choice->scene, lesson->scenes[i].name))
+            progress.total += count_steps(&lesson->scenes[i], choice);
+    Table *table = orders->measure ? table_create(lesson->name) : NULL;
+    for (int i = 0; i < scene_count(lesson); i++) {
+        if (!chosen(choice->scene, lesson->scenes[i].name)) continue;
+        Session *session = allocate(1, sizeof *session);
+        session->stage = stage_open(lesson, &lesson->scenes[i], options);
+        session->choice = choice;
+        session->orders = orders;
+        session->table = table;
+        measure_scene(session);
+        for (int k = 0; k < session->view_count; k++) reference_destroy(&session->references[k]);
+        stage_close(&session->stage);
+        free(session);
+    }
+    if (table) {
+        table_save(table, orders->measure);
+        table_destroy(table);
+    }
+}

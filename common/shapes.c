@@ -1,0 +1,116 @@
+/* Where a ray meets each of the exact shapes: see truth.h. */
+#include "truth.h"
+
+Sample truth_plane(Ray ray, double width, double height) {
+    double t = -ray.origin.z / ray.direction.z; /* not finite for a ray within the plane */
+    Vec3 p = ray_at(ray, t);
+    double u = p.x / width + 0.5, v = p.y / height + 0.5;
+    bool hit = t >= 0.0 && u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0; /* false for what is not a number */
+    return hit ? (Sample){.u = u, .v = v, .depth = t, .hit = true} : (Sample){0};
+}
+
+/* The smaller root first; false where there is none. Of a x^2 + b x + c, without cancellation: the root
+ * of larger magnitude is q / a with q = -(b + sign(b) sqrt(disc)) / 2, and the product of both is c / a. */
+static bool quadratic(double a, double b, double c, double roots[2]) {
+    double discriminant = b * b - 4.0 * a * c;
+    if (!(discriminant >= 0.0)) return false;
+    double q = -0.5 * (b + copysign(sqrt(discriminant), b));
+    double first = q / a, second = c / q;
+    if (a == 0.0) first = second; /* linear: one root, twice */
+    if (q == 0.0) second = first; /* b = 0 and c = 0: a double root at 0, or no equation at all */
+    if (isnan(first)) return false;
+    roots[0] = fmin(first, second);
+    roots[1] = fmax(first, second);
+    return true;
+}
+
+Sample truth_cylinder(Ray ray, double radius, double height) {
+    Vec3 o = ray.origin, d = ray.direction;
+    double roots[2];
+    if (!quadratic(d.x * d.x + d.z * d.z, 2.0 * (o.x * d.x + o.z * d.z),
+                   o.x * o.x + o.z * o.z - radius * radius, roots))
+        return (Sample){0};
+    for (int i = 0; i < 2; i++) {
+        Vec3 p = ray_at(ray, roots[i]);
+        double v = p.y / height + 0.5;
+        if (roots[i] >= 0.0 && v >= 0.0 && v <= 1.0)
+            return (Sample){.u = (atan2(p.x, p.z) + PI) / (2.0 * PI), .v = v, .depth = roots[i], .hit = true};
+    }
+    return (Sample){0};
+}
+
+/* ---- The relief ---- */
+
+/* A ray in the relief's own terms: after t world units from its start it is at (x, y), in texels with the
+ * texel centres at whole numbers, and at height h. */
+typedef struct {
+    double x, y, h, dx, dy, dh;
+} Path;
+
+static double height_at(const Image *height, long i, long j) {
+    long x = i % height->width, y = j % height->height;
+    return *image_at(height, (int)(x < 0 ? x + height->width : x), (int)(y < 0 ? y + height->height : y));
+}
+
+/* The first t in from..to at which the path is at or below the bilinear patch of cell (i, j), or a negative
+ * number. With a = x - i and b = y - j the patch is c0 + c1 a + c2 b + c3 a b; along the path that is
+ * quadratic in t. */
+static double patch_hit(const Image *height, const Path *path, long i, long j, double from, double to) {
+    double h00 = height_at(height, i, j), h10 = height_at(height, i + 1, j);
+    double h01 = height_at(height, i, j + 1), h11 = height_at(height, i + 1, j + 1);
+    double c1 = h10 - h00, c2 = h01 - h00, c3 = h11 - h10 - h01 + h00;
+    double a = path->x + from * path->dx - (double)i, b = path->y + from * path->dy - (double)j;
+    double above = path->h + from * path->dh - (h00 + c1 * a + c2 * b + c3 * a * b);
+    if (above <= 0.0) return from;
+    double slope = path->dh - (c1 * path->dx + c2 * path->dy + c3 * (a * path->dy + b * path->dx));
+    double roots[2];
+    if (!quadratic(-c3 * path->dx * path->dy, slope, above, roots)) return -1.0;
+    for (int k = 0; k < 2; k++)
+        if (roots[k] >= 0.0 && roots[k] <= to - from) return from + roots[k];
+    return -1.0;
+}
+
+/* When a coordinate that is at `at` for t = 0 and moves by `rate` reaches the far side of cell i. */
+static double leaving_time(double at, double rate, long i) {
+    if (rate > 0.0) return ((double)(i + 1) - at) / rate;
+    if (rate < 0.0) return ((double)i - at) / rate;
+    return INFINITY;
+}
+
+/* The cells in their order along the path, until the surface is met; at height 0 it must have been. */
+static double walk(const Image *height, const Path *path) {
+    double end = -path->h / path->dh, t = 0.0;
+    long i = (long)floor(path->x), j = (long)floor(path->y);
+    while (t < end) {
+        double tx = leaving_time(path->x, path->dx, i), ty = leaving_time(path->y, path->dy, j);
+        double leave = fmin(fmin(tx, ty), end);
+        double hit = patch_hit(height, path, i, j, t, fmax(leave, t));
+        if (hit >= 0.0) return hit;
+        t = fmax(leave, t);
+        if (tx <= ty) i += path->dx > 0.0 ? 1 : -1;
+        if (ty <= tx) j += path->dy > 0.0 ? 1 : -1;
+    }
+    return end;
+}
+
+Sample truth_relief(const Relief *relief, Ray ray) {
+    double depth = relief->width * relief->scale, height = relief->width * relief->aspect;
+    Sample window = truth_plane(ray, relief->width, height);
+    if (!window.hit || ray.direction.z >= 0.0) return (Sample){0};
+    if (depth == 0.0) return window;
+    /* The walk starts where the ray enters the layer of heights 0..1, or at the eye if that is within it. */
+    double start = fmax(0.0, (depth * (1.0 - relief->base) - ray.origin.z) / ray.direction.z);
+    Vec3 p = ray_at(ray, start), d = ray.direction;
+    const Image *image = relief->height;
+    Path path = {.x = (p.x / relief->width + 0.5) * image->width - 0.5,
+                 .y = (p.y / height + 0.5) * image->height - 0.5,
+                 .h = p.z / depth + relief->base,
+                 .dx = d.x / relief->width * image->width,
+                 .dy = d.y / height * image->height,
+                 .dh = d.z / depth};
+    double t = walk(image, &path);
+    return (Sample){.u = (path.x + t * path.dx + 0.5) / image->width,
+                    .v = (path.y + t * path.dy + 0.5) / image->height,
+                    .depth = start + t,
+                    .hit = true};
+}

@@ -1,0 +1,4 @@
+// The texture as it lies on the polygon.
+#include "polygon.inc"
+
+void main() { show(uv); }

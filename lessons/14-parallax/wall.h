@@ -1,0 +1,28 @@
+/* The scene most of the lesson happens on: one polygon with a colour and a depth, seen from several angles.
+ */
+#ifndef WALL_H
+#define WALL_H
+
+#include "lesson.h"
+
+typedef struct {
+    Image colour_image, height_image;
+    Texture colour, height, distortion;
+    Shape polygon;
+    Relief relief; /* the same polygon, as the truth sees it */
+} Wall;
+
+/* Scene callbacks, see lesson.h. The polygon is at the relief's top (base 1, or what the file says), or with
+ * wall_load_bottom at its bottom (base 0). */
+void *wall_load(const Options *options);
+void *wall_load_bottom(const Options *options);
+void wall_unload(void *data);
+void wall_draw(const Frame *frame);
+Sample wall_truth(const void *data, Ray ray);
+Vec2 wall_texels(const void *data);
+void wall_measure(const Shots *shots, Table *table); /* fold_percent and shift_max_texels */
+
+/* Technique callback: builds the distortion map of section 3.3 for the frame's camera. */
+void wall_prepare_distortion(const Frame *frame);
+
+#endif
