@@ -10,9 +10,8 @@
 /* A grid of columns x rows cells that is to join a mesh. Which of the numbers count, its function knows. */
 typedef struct {
     int columns, rows;
-    double radius, height; /* of what is round */
-    Vec3 left, right,
-        up; /* of what is flat: its lower corners, and the way from its lower edge to its upper */
+    double radius, height;  /* of what is round */
+    Vec3 left, right, up;   /* of what is flat: its lower corners, and the way from lower to upper edge */
     double u_left, u_right; /* u at those corners */
 } Patch;
 
