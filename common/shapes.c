@@ -47,20 +47,49 @@ typedef struct {
     double x, y, h, dx, dy, dh;
 } Path;
 
-static double height_at(const Image *height, long i, long j) {
-    long x = i % height->width, y = j % height->height;
-    return *image_at(height, (int)(x < 0 ? x + height->width : x), (int)(y < 0 ? y + height->height : y));
+/* A cell between four texel centres, by the columns and rows of its corners, wrapped into the image; x0 and
+ * y0 are also where its lower left corner is along the path, unwrapped. */
+typedef struct {
+    long x0, y0;
+    int left, right, bottom, top;
+} Cell;
+
+static int wrap(long i, int size) {
+    int rest = (int)(i % size);
+    return rest < 0 ? rest + size : rest;
 }
 
-/* The first t in from..to at which the path is at or below the bilinear patch of cell (i, j), or a negative
- * number. With a = x - i and b = y - j the patch is c0 + c1 a + c2 b + c3 a b; along the path that is
+static Cell cell_at(const Image *height, double x, double y) {
+    Cell cell = {.x0 = (long)floor(x), .y0 = (long)floor(y)};
+    cell.left = wrap(cell.x0, height->width), cell.right = wrap(cell.x0 + 1, height->width);
+    cell.bottom = wrap(cell.y0, height->height), cell.top = wrap(cell.y0 + 1, height->height);
+    return cell;
+}
+
+/* One step to a neighbour along an axis: its corners low and high, in an image of that size. */
+static void step(long *at, int *low, int *high, int size, bool forward) {
+    *at += forward ? 1 : -1;
+    if (forward) {
+        *low = *high;
+        *high = *high + 1 == size ? 0 : *high + 1;
+    } else {
+        *high = *low;
+        *low = *low == 0 ? size - 1 : *low - 1;
+    }
+}
+
+/* The first t in from..to at which the path is at or below the bilinear patch of a cell, or a negative
+ * number. With a = x - x0 and b = y - y0 the patch is c0 + c1 a + c2 b + c3 a b; along the path that is
  * quadratic in t. */
-static double patch_hit(const Image *height, const Path *path, long i, long j, double from, double to) {
-    double h00 = height_at(height, i, j), h10 = height_at(height, i + 1, j);
-    double h01 = height_at(height, i, j + 1), h11 = height_at(height, i + 1, j + 1);
-    double c1 = h10 - h00, c2 = h01 - h00, c3 = h11 - h10 - h01 + h00;
-    double a = path->x + from * path->dx - (double)i, b = path->y + from * path->dy - (double)j;
-    double above = path->h + from * path->dh - (h00 + c1 * a + c2 * b + c3 * a * b);
+static double patch_hit(const Image *height, const Path *path, const Cell *cell, double from, double to) {
+    const float *low = height->pixels + (size_t)cell->bottom * height->width;
+    const float *high = height->pixels + (size_t)cell->top * height->width;
+    double h00 = low[cell->left], h10 = low[cell->right], h01 = high[cell->left], h11 = high[cell->right];
+    double lowest = path->h + to * path->dh; /* the path only sinks */
+    if (lowest > h00 && lowest > h10 && lowest > h01 && lowest > h11) return -1.0;
+    double c0 = h00, c1 = h10 - h00, c2 = h01 - h00, c3 = h11 - h10 - h01 + h00;
+    double a = path->x + from * path->dx - (double)cell->x0, b = path->y + from * path->dy - (double)cell->y0;
+    double above = path->h + from * path->dh - (c0 + c1 * a + c2 * b + c3 * a * b);
     if (above <= 0.0) return from;
     double slope = path->dh - (c1 * path->dx + c2 * path->dy + c3 * (a * path->dy + b * path->dx));
     double roots[2];
@@ -80,15 +109,15 @@ static double leaving_time(double at, double rate, long i) {
 /* The cells in their order along the path, until the surface is met; at height 0 it must have been. */
 static double walk(const Image *height, const Path *path) {
     double end = -path->h / path->dh, t = 0.0;
-    long i = (long)floor(path->x), j = (long)floor(path->y);
+    Cell cell = cell_at(height, path->x, path->y);
     while (t < end) {
-        double tx = leaving_time(path->x, path->dx, i), ty = leaving_time(path->y, path->dy, j);
-        double leave = fmin(fmin(tx, ty), end);
-        double hit = patch_hit(height, path, i, j, t, fmax(leave, t));
+        double tx = leaving_time(path->x, path->dx, cell.x0), ty = leaving_time(path->y, path->dy, cell.y0);
+        double leave = clamp(tx < ty ? tx : ty, t, end);
+        double hit = patch_hit(height, path, &cell, t, leave);
         if (hit >= 0.0) return hit;
-        t = fmax(leave, t);
-        if (tx <= ty) i += path->dx > 0.0 ? 1 : -1;
-        if (ty <= tx) j += path->dy > 0.0 ? 1 : -1;
+        t = leave;
+        if (tx <= ty) step(&cell.x0, &cell.left, &cell.right, height->width, path->dx > 0.0);
+        if (ty <= tx) step(&cell.y0, &cell.bottom, &cell.top, height->height, path->dy > 0.0);
     }
     return end;
 }
