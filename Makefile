@@ -70,10 +70,10 @@ assets: $(ASSETS)
 # ---- What a machine needs ----
 
 install: ## install the Debian packages of packages.txt that are missing
-	$(Q)sh tests/install
+	$(Q)sh tests/packages.sh install
 
 doctor: ## say what is missing on this machine
-	$(Q)sh tests/doctor
+	$(Q)sh tests/packages.sh doctor
 
 clean: ## remove what was made
 	rm -rf $(B)

@@ -371,7 +371,7 @@ static void measure_scene(Session *session) {
         for (int v = 0; v < session->variant_count; v++)
             if (session->variants[v].wanted) measure_errors(session, v);
     if (!orders->measure) return;
-    if (has_path(scene) && !session->choice->view && !session->choice->custom) measure_flicker(session);
+    if (has_path(scene)) measure_flicker(session);
     for (int i = 0; i < session->view_count; i++) {
         measure_speed(session, i);
         progress_step(session->stage.lesson, "speed");
@@ -379,12 +379,16 @@ static void measure_scene(Session *session) {
 }
 
 /* The steps that progress_step will be called for, of one scene. */
-static int count_steps(const Scene *scene, const Choice *choice) {
+static int count_steps(const Scene *scene, const Choice *choice, const Orders *orders) {
     const View *views[VIEWS_MAX];
     Session session = {.stage = {.scene = scene}, .choice = choice};
     choose_variants(&session);
-    return choose_views(scene, choice, views) * (2 + session.variant_count) +
-           (has_path(scene) ? PATH_FRAMES : 0);
+    int view_count = choose_views(scene, choice, views), wanted = 0;
+    for (int v = 0; v < session.variant_count; v++) wanted += session.variants[v].wanted;
+    int steps = view_count; /* of the truth */
+    if (orders->render || orders->errors || orders->measure) steps += view_count * wanted;
+    if (orders->measure) steps += view_count + (has_path(scene) ? PATH_FRAMES : 0);
+    return steps;
 }
 
 void measure_all(const Lesson *lesson, const Options *options, const Choice *choice, const Orders *orders) {
@@ -393,7 +397,7 @@ void measure_all(const Lesson *lesson, const Options *options, const Choice *cho
     progress.done = progress.total = 0;
     for (int i = 0; i < scene_count(lesson); i++)
         if (chosen(choice->scene, lesson->scenes[i].name))
-            progress.total += count_steps(&lesson->scenes[i], choice);
+            progress.total += count_steps(&lesson->scenes[i], choice, orders);
     Table *table = orders->measure ? table_create(lesson->name) : NULL;
     for (int i = 0; i < scene_count(lesson); i++) {
         if (!chosen(choice->scene, lesson->scenes[i].name)) continue;

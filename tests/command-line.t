@@ -1,0 +1,98 @@
+#!/usr/bin/perl
+# What goes wrong says so: one line that names the thing, the right status, and no half-written file.
+use strict;
+use warnings;
+use Test::More;
+use File::Temp qw(tempdir);
+use File::Copy qw(copy);
+
+my $lesson = 'build/14-parallax';
+my $temp   = tempdir(CLEANUP => 1);
+delete @ENV{qw(DISPLAY WAYLAND_DISPLAY)};
+
+sub run { # status and what was said on both outputs
+    my ($command) = @_;
+    my $said = `$command 2>&1 </dev/null`;
+    return ($? >> 8, $said);
+}
+
+sub refuses { # the command ends with the status and one line that holds the pattern
+    my ($status, $pattern, $arguments) = @_;
+    my ($got, $said) = run("$lesson $arguments");
+    my $lines = () = $said =~ /\n/g;
+    ok($got == $status && $lines == 1 && $said =~ $pattern, "$arguments: status $status, one line with $pattern")
+        or diag "status $got: $said";
+}
+
+sub file { # a file with these bytes
+    my ($name, $bytes) = @_;
+    open my $out, '>:raw', "$temp/$name" or die;
+    print $out $bytes;
+    close $out;
+    return "$temp/$name";
+}
+
+sub bytes {
+    open my $in, '<:raw', $_[0] or die "$_[0]: $!";
+    local $/;
+    return <$in>;
+}
+
+# ---- The command line itself ----
+refuses(2, qr/--nonsense/, '--nonsense');
+refuses(2, qr/--size/, '--size');
+refuses(2, qr/--size 0x0/, '--size 0x0');
+refuses(2, qr/--size 99999x99999/, '--size 99999x99999');
+refuses(2, qr/--size 12x/, '--size 12x');
+refuses(2, qr/--size 1e3x5/, '--size 1e3x5');
+refuses(2, qr/--scene nowhere/, '--scene nowhere --list');
+refuses(2, qr/--technique magic/, '--technique magic --list');
+refuses(2, qr/--view nowhere/, '--view nowhere --list');
+refuses(2, qr/--knob many/, '--knob many --list');
+refuses(2, qr/--scale nan/, '--scale nan --list');
+refuses(2, qr/--scale -1/, '--scale -1 --list');
+refuses(2, qr/stray/, 'stray');
+refuses(1, qr/--render/, ''); # no display
+
+my ($status, $help) = run("$lesson --help");
+ok($status == 0 && $help =~ /--measure/, '--help helps');
+
+# ---- Files ----
+my $small = '--scene brick --technique plain --view front --size 8x8';
+my $png   = bytes('build/assets/brick-colour.png');
+my %bad   = (
+    'empty.png'     => '',
+    'text.png'      => "this is no image\n",
+    'truncated.png' => substr($png, 0, length($png) / 2),
+    'unended.png'   => substr($png, 0, length($png) - 12),
+    'huge.png' => "\x89PNG\r\n\x1a\n" . pack('N', 13) . 'IHDR' . pack('NNCCCCC', 1e6, 1e6, 8, 2, 0, 0, 0) . pack('N', 0x3ee62b6e),
+    'nothing.png' => "\x89PNG\r\n\x1a\n" . pack('N', 13) . 'IHDR' . pack('NNCCCCC', 0, 0, 8, 2, 0, 0, 0) . pack('N', 0x93639dea),
+);
+refuses(1, qr/\Q$_\E/, "$small --render $temp/out --colour " . file($_, $bad{$_})) for sort keys %bad;
+refuses(1, qr/missing\.png/, "$small --render $temp/out --height $temp/missing.png");
+refuses(1, qr/nan\.hdr|nan\.pfm/, "$small --render $temp/out --height "
+    . file('nan.pfm', "Pf\n2 2\n-1.0\n" . pack('f<4', 0.5, 'nan', 0.5, 0.5)));
+refuses(1, qr/tall\.pfm/, "$small --render $temp/out --height "
+    . file('tall.pfm', "Pf\n2 2\n-1.0\n" . pack('f<4', 0.5, 3, 0.5, 0.5)));
+is_deeply([glob("$temp/out/* $temp/out/.[!.]*")], [], 'nothing was written by what failed');
+
+# ---- Where to write ----
+my $blocked = file('a-file', 'x');
+refuses(1, qr/a-file/, "$small --render $blocked");
+refuses(1, qr/a-file/, "$small --render $blocked/below");
+refuses(1, qr{/proc/nowhere}, "$small --measure /proc/nowhere/table.csv");
+refuses(1, qr/\Q$temp\E/, "$small --measure $temp");
+
+# ---- And what goes right, from any working directory ----
+my $here = `pwd`;
+chomp $here;
+($status, my $said) = run("cd / && $here/$lesson $small --render $temp/right --truth $temp/right");
+is($status, 0, 'renders from another directory') or diag $said;
+ok(-s "$temp/right/brick-front-$_", "brick-front-$_") for qw(plain.png plain.exr truth.png truth.exr);
+($status, $said) = run("$lesson $small --colour build/assets/coffee.png --height build/assets/brick-256-height.png"
+    . " --render $temp/own");
+is($status, 0, 'draws a user\'s own images of different sizes') or diag $said;
+($status, $said) = run("$lesson --list");
+ok($status == 0 && $said =~ /^scene brick/m && $said =~ /fov_y_degrees/, '--list lists');
+
+done_testing();

@@ -1,0 +1,83 @@
+#!/usr/bin/perl
+# Pictures as tests: each lesson is measured at 320x240 and held against the bounds in its expect.csv; and its
+# reviewed pictures in tests/golden/ are drawn again. It measures time, so it runs last and alone.
+#
+#   tests/pictures.t [NN-name...]     all lessons, or those
+#
+# A bound is empty, a number, or [FACTOR*]TECHNIQUE[:KNOB]: that row's value of the same metric, scene and view.
+use strict;
+use warnings;
+use Test::More;
+use File::Path qw(make_path);
+
+my $size   = '320x240';
+my $folder = 'build/tests/pictures';
+my $golden = 'tests/golden'; # LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png
+my %golden_limit = (max => 4, mean => 0.1); # of 255, OSMesa against OSMesa
+
+sub rows { # of a CSV file with a header, as hashes; its fields hold no commas
+    my ($path) = @_;
+    open my $file, '<', $path or return;
+    chomp(my @lines = grep { /\S/ && !/^#/ } <$file>);
+    my @names = split /,/, shift @lines;
+    return map { my %row; @row{@names} = split /,/, $_, -1; \%row } @lines;
+}
+
+sub key { join '/', @_ }
+
+sub bound { # its number, or undef and why there is none
+    my ($text, $row, $values) = @_;
+    return $text if $text =~ /^[-+]?[0-9.]+(e[-+]?\d+)?$/i;
+    $text =~ /^(?:([0-9.]+)\*)?([a-z][a-z0-9-]*)(?::([0-9.]+))?$/ or return (undef, "'$text' is no bound");
+    my ($factor, $technique, $knob) = ($1 // 1, $2, $3 // '');
+    my $other = $values->{key($row->{scene}, $technique, $knob, $row->{view}, $row->{metric})};
+    return defined $other ? $factor * $other : (undef, "there is no row of $text");
+}
+
+sub check {
+    my ($row, $values) = @_;
+    my $name  = key(@{$row}{qw(scene technique knob view metric)});
+    my $value = $values->{$name};
+    return fail("$name: the row is missing") unless defined $value;
+    return fail("$name: expect.csv bounds it on no side") unless "$row->{at_least}$row->{at_most}" =~ /\S/;
+    for my $side (['at_least', 1], ['at_most', -1]) {
+        my ($column, $sign) = @$side;
+        next if $row->{$column} eq '';
+        my ($bound, $why) = bound($row->{$column}, $row, $values);
+        return fail("$name: $why") unless defined $bound;
+        return fail("$name: $value, expected $column $row->{$column} = $bound")
+            if $sign * ($value - $bound) < 0;
+    }
+    pass("$name = $value");
+}
+
+sub check_golden {
+    my ($path) = @_;
+    my ($lesson, $scene, $view, $technique, $knob) = $path =~ m{/([^./]+)\.([^.]+)\.([^.]+)\.([^.]+?)(?:\.([0-9.]+))?\.png$}
+        or return fail("$path: a golden picture is LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png");
+    my @command = ("build/$lesson", '--render', $folder, '--size', $size, '--scene', $scene, '--view', $view,
+        '--technique', $technique, defined $knob ? ('--knob', $knob) : ());
+    return fail("$path: cannot be drawn") if system("@command 2>/dev/null");
+    my $picture = "$folder/" . join('-', $scene, $view, $technique, $knob // ()) . '.png';
+    my ($max, $mean) = split ' ', `build/tests/png_difference $picture $path`;
+    return fail("$path: cannot be compared") unless defined $mean;
+    ok($max <= $golden_limit{max} && $mean <= $golden_limit{mean},
+        "$path: at most $max/255 off, $mean/255 in the mean");
+}
+
+my @lessons = @ARGV ? @ARGV : map { m{^lessons/(.*)} } glob('lessons/[0-9][0-9]-*');
+make_path($folder);
+for my $lesson (@lessons) {
+    my $table = "$folder/$lesson.csv";
+    unlink $table;
+    my $said = `build/$lesson --measure $table --size $size 2>&1`;
+    is($?, 0, "$lesson is measured") or diag $said;
+    my %values = map { (key(@{$_}{qw(scene technique knob view metric)}) => $_->{value}) } rows($table);
+    my @expected = rows("lessons/$lesson/expect.csv");
+    ok(@expected > 0, "$lesson/expect.csv expects something");
+    check($_, \%values) for @expected;
+    my @golden = glob("$golden/$lesson.*.png");
+    ok(@golden > 0, "$lesson has a golden picture");
+    check_golden($_) for @golden;
+}
+done_testing();

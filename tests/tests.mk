@@ -1,0 +1,59 @@
+# Tests: units and hard cases first, several at once; then what measures time, last and alone.
+
+TESTS := $(B)/tests
+
+# Units: tests/test_*.c, and a lesson's own beside its sources, which are linked in.
+UNIT_TESTS := $(patsubst tests/%.c,$(TESTS)/%,$(wildcard tests/test_*.c))
+LESSON_TESTS := $(patsubst lessons/%.c,$(TESTS)/%,$(wildcard lessons/*/test_*.c))
+tests_of = $(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)) $(filter $(TESTS)/cases-$(1),$(CASES_TESTS))
+
+link_test = $(CC) $(CFLAGS) $(LDFLAGS) $(filter %.o,$^) -L$(B) -ltexel -lcmocka -lm -pthread -Wl,-rpath,$(abspath $(B)) -o $@
+
+$(UNIT_TESTS) $(TESTS)/png_difference: $(TESTS)/%: $(B)/obj/tests/%.c.o $(B)/libtexel.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q)$(link_test)
+
+define LESSON_TEST_RULES
+$(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)): $(TESTS)/%: $(B)/obj/lessons/%.c.o \
+	$(patsubst %,$(B)/obj/%.o,$(filter-out %/lesson.c,$(call lesson_sources,$(1)))) $(B)/libtexel.so
+	$$(call say,LINK,$$@)
+	$$(Q)mkdir -p $$(@D)
+	$$(Q)$$(link_test)
+endef
+$(foreach lesson,$(LESSONS),$(if $(filter $(TESTS)/$(lesson)/%,$(LESSON_TESTS)),$(eval $(call LESSON_TEST_RULES,$(lesson)))))
+
+PARALLEL_TESTS = $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS) $(TESTS)/shaders \
+	$(filter-out tests/pictures.t,$(wildcard tests/*.t))
+TEST_PROGRAMS = $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS) $(TESTS)/shaders $(TESTS)/png_difference
+
+# Without --exec '' prove would hand programs to perl.
+PROVE := prove --exec '' -j2
+PROVE_ALONE := prove --exec '' -v
+
+test: install ## install what is missing, build, and run every test
+	$(Q)$(MAKE) --no-print-directory -j$(shell nproc) test-build
+	$(Q)$(PROVE) $(PARALLEL_TESTS)
+	$(Q)prove --exec '' tests/pictures.t
+
+test-build: all $(TEST_PROGRAMS)
+
+$(NUMBERS:%=test-%): test-%: test-build ## (test-14) a lesson's tests alone
+	$(Q)$(PROVE) $(call tests_of,$(call lesson_of,$*)) $(TESTS)/shaders
+	$(Q)prove --exec '' tests/pictures.t :: $(call lesson_of,$*)
+
+# The units and the hard cases once more, built into a folder of their own with the sanitizers in.
+SANITIZE := -fsanitize=address,undefined -fno-omit-frame-pointer
+sanitize: ## unit and hard-case tests under ASan and UBSan
+	$(Q)$(MAKE) --no-print-directory B=$(B)/sanitize CFLAGS="$(CFLAGS) $(SANITIZE)" CXXFLAGS="$(CXXFLAGS) $(SANITIZE)" \
+		LDFLAGS="$(LDFLAGS) $(SANITIZE)" -j$(shell nproc) sanitize-run
+
+sanitize-run: $(filter-out $(TESTS)/png_difference,$(TEST_PROGRAMS))
+	$(Q)LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=halt_on_error=1 \
+		$(PROVE) $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS)
+
+SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' | grep -v 'cases\.h$$')
+format-check: ## demand clang-format's layout (its package: packages-dev.txt)
+	$(Q)clang-format --dry-run --Werror $(SOURCES)
+
+.PHONY: test test-build $(NUMBERS:%=test-%) sanitize sanitize-run format-check
