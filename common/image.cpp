@@ -255,19 +255,19 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     if (!S_ISREG(about.st_mode)) return "not a regular file";
     File file(fopen(path, "rb"), fclose);
     if (!file) return strerror(errno);
-    const char *broken = check_whole(file.get());
+    const char *refused = check_whole(file.get());
+    if (refused) return refused;
 
     OIIO::ImageSpec wish;
     wish["oiio:UnassociatedAlpha"] = 1; /* colours as they are stored, not multiplied by alpha */
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &wish);
     if (!input) {
         OIIO::geterror(); /* fetched, or OpenImageIO prints it at the end of the program */
-        return broken ? broken : "not an image, or a broken one";
+        return "not an image, or a broken one";
     }
     const OIIO::ImageSpec &spec = input->spec();
     int channels = kind == IMAGE_RAW ? spec.nchannels : kind == IMAGE_HEIGHT ? 1 : spec.nchannels < 3 ? 1 : 3;
-    const char *refused = check_size(spec, channels);
-    if (!refused) refused = broken;
+    refused = check_size(spec, channels);
     double scale = NAN, base = NAN;
     if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:scale", &scale);
     if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:base", &base);
@@ -381,6 +381,7 @@ static OIIO::ImageSpec spec_of(const Image *image, int channels, OIIO::TypeDesc 
     spec["compression"] = "none"; /* of EXR: floats hardly shrink, and it costs five times the time */
     spec["png:compressionLevel"] = 1;
     spec["oiio:UnassociatedAlpha"] = 1;
+    if (type == OIIO::TypeDesc::FLOAT) spec["DateTime"] = "1970:01:01 00:00:00"; /* else EXR has today's */
     return spec;
 }
 
