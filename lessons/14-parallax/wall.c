@@ -1,8 +1,10 @@
 #include "wall.h"
 
 #include "fail.h"
+#include "table.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- Loading ---- */
 
@@ -18,11 +20,12 @@ static Wall *load(const Options *options, double base) {
     wall->colour_image = image_load(options->colour, IMAGE_COLOUR);
     wall->height_image = image_load(options->height, IMAGE_HEIGHT);
     require_heights(&wall->height_image, options->height);
+    if (options->other[0]) wall->mask = image_load(options->other[0], IMAGE_HEIGHT);
     wall->colour = texture_of(&wall->colour_image, IMAGE_COLOUR);
     wall->height = texture_of(&wall->height_image, IMAGE_HEIGHT);
     double aspect = (double)wall->colour_image.height / wall->colour_image.width;
-    wall->relief = (Relief){&wall->height_image, 1.0, aspect, options_scale(options, &wall->height_image),
-                            isnan(base) ? 1.0 : base};
+    wall->relief =
+        (Relief){&wall->height_image, 1.0, aspect, options_scale(options, &wall->height_image), base};
     Mesh plane = mesh_plane(1.0, aspect, 1, 1);
     wall->polygon = shape_create(&plane);
     mesh_destroy(&plane);
@@ -41,6 +44,7 @@ void wall_unload(void *data) {
     Wall *wall = data;
     image_destroy(&wall->colour_image);
     image_destroy(&wall->height_image);
+    if (wall->mask.pixels) image_destroy(&wall->mask);
     texture_destroy(&wall->colour);
     texture_destroy(&wall->height);
     if (wall->distortion.id) texture_destroy(&wall->distortion);
@@ -57,20 +61,23 @@ static Vec2 tangents_at(const Camera *camera, Vec3 point) {
     return view.z > 0.0 ? v2(view.x / view.z, view.y / view.z) : v2(0, 0);
 }
 
-void wall_prepare_distortion(const Frame *frame) {
-    Wall *wall = frame->data;
-    const Relief *relief = &wall->relief;
-    const Image *height = &wall->height_image;
-    Image map = image_create(height->width, height->height, 2);
+Image wall_distortion(const Relief *relief, const Camera *camera) {
+    Image map = image_create(relief->height->width, relief->height->height, 2);
     for (int y = 0; y < map.height; y++) {
         for (int x = 0; x < map.width; x++) {
             Vec3 point = v3((x + 0.5) / map.width - 0.5, ((y + 0.5) / map.height - 0.5) * relief->aspect, 0);
-            Vec2 tangents = tangents_at(&frame->camera, point);
-            double d = relief->scale * (*image_at(height, x, y) - relief->base);
+            Vec2 tangents = tangents_at(camera, point);
+            double d = relief->scale * (*image_at(relief->height, x, y) - relief->base);
             image_at(&map, x, y)[0] = (float)(d * tangents.x);                  /* u' - u */
             image_at(&map, x, y)[1] = (float)(d * tangents.y / relief->aspect); /* v' - v */
         }
     }
+    return map;
+}
+
+void wall_prepare_distortion(const Frame *frame) {
+    Wall *wall = frame->data;
+    Image map = wall_distortion(&wall->relief, &frame->camera);
     if (wall->distortion.id) texture_destroy(&wall->distortion);
     wall->distortion = texture_create(&map, 1, TEXTURE_FLOAT, TEXTURE_LINEAR);
     image_destroy(&map);
@@ -92,6 +99,16 @@ void wall_draw(const Frame *frame) {
 
 /* ---- The truth, and how far a picture is from it ---- */
 
+/* Whether one of the four texels that a bilinear read at (u, v) mixes is masked out. */
+static bool unknown_at(const Wall *wall, double u, double v) {
+    const Image *mask = &wall->mask;
+    if (!mask->pixels || mask->width != wall->height_image.width || mask->height != wall->height_image.height)
+        return false;
+    double known;
+    image_sample(mask, u, v, &known);
+    return known < 1.0 - 1e-9;
+}
+
 Sample wall_truth(const void *data, Ray ray) {
     const Wall *wall = data;
     Sample sample = truth_relief(&wall->relief, ray);
@@ -99,6 +116,7 @@ Sample wall_truth(const void *data, Ray ray) {
     if (sample.hit) {
         image_sample(&wall->colour_image, sample.u, sample.v, rgb);
         sample.colour = v3(rgb[0], rgb[1], rgb[2]);
+        sample.unknown = unknown_at(wall, sample.u, sample.v);
     }
     return sample;
 }
@@ -108,37 +126,116 @@ Vec2 wall_texels(const void *data) {
     return v2(wall->colour_image.width, wall->colour_image.height);
 }
 
-/* Swimming. A fold: two neighbours in a row whose u' runs against their polygon's u, which nothing that is
- * seen of a real relief does. The shift: how far a lookup is from the polygon's own coordinates. */
+/* ---- The lesson's own metrics ---- */
+
+double wall_steepness(const Relief *relief) {
+    const Image *height = relief->height;
+    double per_x = relief->scale * height->width, per_y = relief->scale * height->height / relief->aspect;
+    double steepest = 0.0;
+    for (int y = 0; y < height->height; y++) {
+        for (int x = 0; x < height->width; x++) {
+            int right = (x + 1) % height->width, above = (y + 1) % height->height;
+            double h00 = *image_at(height, x, y), h10 = *image_at(height, right, y);
+            double h01 = *image_at(height, x, above), h11 = *image_at(height, right, above);
+            /* Within a patch dh/dx depends on y alone and dh/dy on x alone: the steepest is a corner. */
+            double dx = fmax(fabs(h10 - h00), fabs(h11 - h01)) * per_x;
+            double dy = fmax(fabs(h01 - h00), fabs(h11 - h10)) * per_y;
+            steepest = fmax(steepest, hypot(dx, dy));
+        }
+    }
+    return steepest;
+}
+
+/* A view whose rows run along the shift: orthographic and turned about y alone. */
+static bool along_rows(const Camera *camera) {
+    return camera->fov_y_degrees <= 0.0 && camera->eye.y == camera->target.y && camera->up.x == 0.0 &&
+           camera->up.z == 0.0;
+}
+
+/* A pixel of the polygon: where, what was looked up there, and what should have been. */
+typedef struct {
+    bool hit;
+    double u, v, looked_up, exact;
+} Spot;
+
+static Spot spot_at(const Shots *shots, const Shot *shot, int x, int y) {
+    const Wall *wall = shots->frame->data;
+    int width = shots->frame->width, height = shots->frame->height;
+    Ray ray = camera_ray(&shot->view->camera, width, height, x + 0.5, y + 0.5);
+    Sample polygon = truth_plane(ray, 1.0, wall->relief.aspect);
+    const float *lookup = image_at(&shot->picture.lookup, x, y);
+    const Sample *exact = &shot->centres[(size_t)y * width + x];
+    return (Spot){polygon.hit && lookup[3] > 0.5f && exact->hit && !exact->unknown, polygon.u, polygon.v,
+                  lookup[0], exact->u};
+}
+
+/* A fold: two neighbours in a row whose u' runs against their polygon's u. Along the shift nothing that is
+ * seen of a real relief does that, so it is counted only where rows run along it. */
+static void measure_folds(const Shots *shots, const Shot *shot, Table *table) {
+    double folds = 0, exact_folds = 0, pairs = 0;
+    for (int y = 0; y < shots->frame->height; y++) {
+        Spot before = {0};
+        for (int x = 0; x < shots->frame->width; x++) {
+            Spot spot = spot_at(shots, shot, x, y);
+            if (spot.hit && before.hit) {
+                pairs++;
+                folds += (spot.looked_up - before.looked_up) * (spot.u - before.u) < 0.0;
+                exact_folds += (spot.exact - before.exact) * (spot.u - before.u) < 0.0;
+            }
+            before = spot;
+        }
+    }
+    table_add(table, shots, shot->view, "fold_percent", 100.0 * folds / fmax(pairs, 1), "%");
+    table_add(table, shots, shot->view, "fold_truth_percent", 100.0 * exact_folds / fmax(pairs, 1), "%");
+}
+
+/* How far a lookup is from the polygon's own coordinates, at most; the rms of its error; and the largest
+ * tangent of the view's angle over the picture. */
+static void measure_shift(const Shots *shots, const Shot *shot, double *shift, double *error,
+                          double *tangent) {
+    Vec2 texels = wall_texels(shots->frame->data);
+    int width = shots->frame->width, height = shots->frame->height;
+    double sum = 0, count = 0;
+    *shift = *tangent = 0;
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            Spot spot = spot_at(shots, shot, x, y);
+            if (!spot.hit) continue;
+            const float *lookup = image_at(&shot->picture.lookup, x, y);
+            const Sample *exact = &shot->centres[(size_t)y * width + x];
+            Vec3 way = camera_ray(&shot->view->camera, width, height, x + 0.5, y + 0.5).direction;
+            double eu = (lookup[0] - exact->u) * texels.x, ev = (lookup[1] - exact->v) * texels.y;
+            *shift = fmax(*shift, hypot((lookup[0] - spot.u) * texels.x, (lookup[1] - spot.v) * texels.y));
+            *tangent = fmax(*tangent, hypot(way.x, way.y) / fabs(way.z));
+            sum += eu * eu + ev * ev, count++;
+        }
+    }
+    *error = sqrt(sum / fmax(count, 1));
+}
+
+/* The error's way through the iterations: none is `plain`, one is `per-pixel`. */
+static void add_iterations(const Shots *shots, const Shot *shot, double error, Table *table) {
+    const Frame *frame = shots->frame;
+    const char *name = frame->technique->name;
+    double done = !strcmp(name, "plain") ? 0 : !strcmp(name, "per-pixel") ? 1 : frame->knob;
+    if (done == 0 && strcmp(name, "plain")) return; /* another technique */
+    table_set(table, frame->scene->name, "iterated", 0);
+    table_point(table, shots, shot->view, "iteration", "iterations", done, "uv error, rms (texels)", error);
+    table_set(table, frame->scene->name, name, frame->knob);
+}
+
 void wall_measure(const Shots *shots, Table *table) {
     const Wall *wall = shots->frame->data;
-    Vec2 texels = wall_texels(wall);
-    int width = shots->frame->width, height = shots->frame->height;
+    bool first = shots->frame->technique == shots->frame->scene->techniques; /* what belongs to none */
+    double steepness = first ? wall_steepness(&wall->relief) : 0;
+    if (first) table_add(table, shots, NULL, "steepness_max", steepness, "widths per width");
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];
-        double folds = 0, exact_folds = 0, pairs = 0, shift = 0;
-        for (int y = 0; y < height; y++) {
-            Sample before = {0};
-            for (int x = 0; x < width; x++) {
-                Ray ray = camera_ray(&shot->view->camera, width, height, x + 0.5, y + 0.5);
-                Sample polygon = truth_plane(ray, 1.0, wall->relief.aspect);
-                const float *lookup = image_at(&shot->picture.lookup, x, y);
-                const Sample *exact = &shot->centres[(size_t)y * width + x];
-                polygon.hit = polygon.hit && lookup[3] > 0.5f && exact->hit;
-                if (polygon.hit)
-                    shift = fmax(
-                        shift, hypot((lookup[0] - polygon.u) * texels.x, (lookup[1] - polygon.v) * texels.y));
-                if (polygon.hit && before.hit) {
-                    double along = polygon.u - before.u;
-                    pairs++;
-                    folds += ((double)lookup[0] - lookup[-4]) * along < 0.0;
-                    exact_folds += (exact[0].u - exact[-1].u) * along < 0.0;
-                }
-                before = polygon;
-            }
-        }
-        table_add(table, shots, shot->view, "fold_percent", 100.0 * folds / fmax(pairs, 1), "%");
-        table_add(table, shots, shot->view, "fold_truth_percent", 100.0 * exact_folds / fmax(pairs, 1), "%");
+        double shift, error, tangent;
+        measure_shift(shots, shot, &shift, &error, &tangent);
         table_add(table, shots, shot->view, "shift_max_texels", shift, "texels");
+        if (first) table_add(table, shots, shot->view, "contraction_max", tangent * steepness, "1");
+        if (along_rows(&shot->view->camera)) measure_folds(shots, shot, table);
+        add_iterations(shots, shot, error, table);
     }
 }
