@@ -25,7 +25,8 @@ LINK_TEXEL = -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
 all: $(B)/libtexel.so $(LESSONS:%=$(B)/%) assets ## build everything
 
 help: ## list these commands
-	@grep -hE '^[a-zA-Z0-9_%-]+:.*## ' Makefile | sed -E 's/:.*## /\t/' | awk -F'\t' '{printf "make %-14s %s\n", $$1, $$2}'
+	@grep -hE '^[^#[:space:]].*:.*## ' $(MAKEFILE_LIST) | sed -E 's/^.*: ([a-z-]*)%:/\1NN:/; s/:.*## /\t/' \
+		| awk -F'\t' '{printf "make %-14s %s\n", $$1, $$2}'
 
 # ---- The library ----
 
@@ -41,10 +42,15 @@ $(B)/obj/%.cpp.o: %.cpp
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CXX) $(TEXEL_CXXFLAGS) $(CXXFLAGS) -c $< -o $@
 
-# A shared library, so that linking a lesson takes no time.
+# A shared library, so that linking a lesson takes no time; and an archive for tests, which take from it only
+# what they use: a process that loads OpenImageIO spends a quarter of a second on it.
 $(B)/libtexel.so: $(COMMON_OBJECTS)
 	$(call say,LINK,$@)
 	$(Q)$(CXX) -shared $(CXXFLAGS) $(LDFLAGS) $^ $(TEXEL_LIBS) -o $@
+
+$(B)/libtexel.a: $(COMMON_OBJECTS)
+	$(call say,AR,$@)
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
 # ---- Lessons: one folder, one program; test_*.c beside them are tests ----
 

@@ -1,4 +1,4 @@
-/* Images by OpenImageIO. The only C++ in common: it stays behind the C interface of image.h. */
+/* Image files by OpenImageIO. The only C++ in common: it stays behind the C interface of image.h. */
 #define _Noreturn [[noreturn]] /* C++ has no word for it that fail.h could share */
 extern "C" {
 #include "image.h"
@@ -33,83 +33,6 @@ __attribute__((format(printf, 1, 2))) static const char *reason(const char *form
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     return text;
-}
-
-/* ---- Memory ---------------------------------------------------------------------------------------- */
-
-Image image_create(int width, int height, int channels) {
-    if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
-        fail("an image of %dx%d pixels: a side must be 1 to %d", width, height, IMAGE_SIDE_MAX);
-    if (channels < 1 || channels > 4) fail("an image of %d channels: there must be 1 to 4", channels);
-    Image image = {width, height, channels, 32, NAN, NAN, nullptr};
-    image.pixels = (float *)allocate((size_t)width * height, channels * sizeof(float));
-    return image;
-}
-
-void image_destroy(Image *image) {
-    free(image->pixels);
-    *image = Image{};
-}
-
-/* ---- The sRGB transfer function -------------------------------------------------------------------- */
-
-double srgb_encode(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
-
-double srgb_decode(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-/* Encoding to bytes without pow: where each code begins in linear light, and for each of 4096 stretches of
- * 0..1 the code at its start. A stretch holds at most one beginning, for the curve is nowhere steeper than
- * 12.92 x 255 / 4096 = 0.8 codes a stretch. */
-struct ByteEncoder {
-    static constexpr int STRETCHES = 4096;
-    float begins[257];
-    unsigned char first[STRETCHES + 1];
-
-    ByteEncoder() {
-        begins[0] = -INFINITY;
-        begins[256] = INFINITY;
-        for (int code = 1; code < 256; code++) begins[code] = (float)srgb_decode((code - 0.5) / 255);
-        for (int i = 0, code = 0; i <= STRETCHES; i++) {
-            while (begins[code + 1] <= (float)i / STRETCHES) code++;
-            first[i] = (unsigned char)code;
-        }
-    }
-};
-static const ByteEncoder byte_encoder;
-
-unsigned char srgb_byte(float linear) {
-    if (!(linear > 0)) return 0; /* so is NaN, which an 8-bit file cannot hold */
-    if (linear >= 1) return 255;
-    int code = byte_encoder.first[(int)(linear * ByteEncoder::STRETCHES)];
-    return (unsigned char)(code + (linear >= byte_encoder.begins[code + 1]));
-}
-
-/* ---- Sampling -------------------------------------------------------------------------------------- */
-
-/* The two texels around the coordinate u of a repeated row of `size`, and the way from one to the other. */
-struct Neighbours {
-    int low, high;
-    double way;
-};
-
-static Neighbours neighbours(double u, int size) {
-    double x = (u - floor(u)) * size - 0.5; /* wrapped first, so that a large u still fits an int */
-    int low = (int)floor(x);
-    return {low < 0 ? size - 1 : low, low + 1 < size ? low + 1 : 0, x - low};
-}
-
-void image_sample(const Image *image, double u, double v, double *out) {
-    Neighbours x = neighbours(u, image->width), y = neighbours(v, image->height);
-    const float *a = image_at(image, x.low, y.low), *b = image_at(image, x.high, y.low);
-    const float *c = image_at(image, x.low, y.high), *d = image_at(image, x.high, y.high);
-    for (int i = 0; i < image->channels; i++) {
-        double bottom = a[i] + ((double)b[i] - a[i]) * x.way, top = c[i] + ((double)d[i] - c[i]) * x.way;
-        out[i] = bottom + (top - bottom) * y.way;
-    }
 }
 
 /* ---- Reading --------------------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
-/* Images: what a file holds, as floats in memory. The C interface; OpenImageIO does the work (image.cpp).
+/* Images: what a file holds, as floats in memory. Their files are OpenImageIO's work, behind this C
+ * interface (image.cpp).
  *
  * Row 0 is the bottom row, so that rows grow upward like texture v: files store the top row first, and
  * loading and saving flip. Colours are linear light; sRGB exists only in files and on screens. */

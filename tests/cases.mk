@@ -45,7 +45,7 @@ $(CASES)/%/double.o: tests/cases_glm.cpp $(CASES)/%/techniques.h $(CASES)/double
 	$(Q)$(cases_compile)
 
 # Linked by g++, whose library GLM's templates may need.
-$(CASES)/cases-%: $(B)/obj/tests/cases.c.o $(CASES)/%/float.o $(CASES)/%/double.o $(B)/libtexel.so
+$(CASES)/cases-%: $(B)/obj/tests/cases.c.o $(CASES)/%/float.o $(CASES)/%/double.o $(B)/libtexel.a
 	$(call say,LINK,$@)
 	$(Q)$(CASES_CXX) $(CXXFLAGS) $(LDFLAGS) $(filter %.o,$^) $(cases_libraries) -o $@
 
