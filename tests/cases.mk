@@ -30,7 +30,7 @@ $(CASES)/%/techniques.h: FORCE
 		$(wildcard $(call cases_folder,$*)/*.glsl)) >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
-cases_libraries = -L$(B) -ltexel -lm -Wl,-rpath,'$$ORIGIN/..'
+cases_libraries = -Wl,--as-needed $(B)/libtexel.a $(TEXEL_LIBS)
 
 cases_compile = $(CASES_CXX) $(CASES_CXXFLAGS) $(CASES_FLAGS_$(basename $(@F))) $(CXXFLAGS) \
 	-include $(CASES)/$(basename $(@F))/glsl.hpp -I$(CASES)/$* -I$(call cases_folder,$*) \
@@ -49,9 +49,9 @@ $(CASES)/cases-%: $(B)/obj/tests/cases.c.o $(CASES)/%/float.o $(CASES)/%/double.
 	$(call say,LINK,$@)
 	$(Q)$(CASES_CXX) $(CXXFLAGS) $(LDFLAGS) $(filter %.o,$^) $(cases_libraries) -o $@
 
-$(CASES)/shaders: $(B)/obj/tests/shaders.c.o $(B)/libtexel.so
+$(CASES)/shaders: $(B)/obj/tests/shaders.c.o $(B)/libtexel.a
 	$(call say,LINK,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(cases_libraries) -o $@
+	$(Q)$(CXX) $(CXXFLAGS) $(LDFLAGS) $< $(cases_libraries) -o $@
 
 test-build: $(CASES)/cases-harness
