@@ -179,6 +179,8 @@ CASE("1x7", 10 * 0.6 * (2 + (0.4 * 7 + 2.1) / 2.1 + 1) * 0x1p-24, "",
      summed_area(line_high, line_low, vec2(0.5, 0.4), vec2(0.3, 0.0), vec2(0.0, 0.3)).x)
 CASE("3x5 one texel wide", 10 * 0.6 * (0.6 * 3 + 1 + 0.9 * 5 + 1 + 1) * 0x1p-24, "",
      summed_area(odd_high, odd_low, vec2(0.6, 0.9), vec2(0.0), vec2(0.0)).x)
+CASE("3x5 where the left edge rounds onto the right end", 10 * 0.6 * (0.5 + 1 + 0.5 + 1 + 1) * 0x1p-24, "",
+     summed_area(odd_high, odd_low, vec2(0.16666666, 0.1), vec2(0.0), vec2(0.0)).x)
 CASE("3x5 larger than the texture", 10 * 0.6 * (2 + 2 + 1) * 0x1p-24, "",
      summed_area(odd_high, odd_low, vec2(0.6, 0.9), vec2(2.3, 0.0), vec2(0.3, 4.9)).x)
 CASE("513x257 HDR one texel wide", (10 * 900 * (0.3 * 513 + 0.7 * 257 + 3) + 3200) * 0x1p-24, "",

@@ -13,9 +13,8 @@ struct Footprint {
 
 // The footprint of the pixel (its centre, in pixels). homography takes (x, y, 1) to (u w, v w, w), with w > 0
 // where the plane is in front of the eye; then u = (u w) / w, and du/dx follows from the quotient rule
-// (Heckbert 1989, section 3.4.2). Exact, unlike dFdx, which is the difference to a neighbouring pixel.
-// Where w = 0 is the horizon. A centre nearer to it than a thousandth of a pixel counts as sky: there is no
-// float that could tell on which side it is, and nothing overflows.
+// (Heckbert 1989). Exact, unlike dFdx, which is the difference to a neighbouring pixel. Where w = 0 is the
+// horizon; a centre less than a thousandth of a pixel below it counts as sky, so that nothing overflows.
 Footprint footprint(mat3 homography, vec2 pixel) {
     vec3 p = homography * vec3(pixel, 1.0);
     vec3 p_x = homography[0], p_y = homography[1]; // its derivatives
@@ -137,7 +136,7 @@ vec4 box_sum(sampler2D sums, Cover columns, Cover rows) {
 // the box covers of them; a box of one texel is bilinear interpolation, exactly.
 vec4 summed_area(sampler2D high, sampler2D low, vec2 uv, vec2 dx, vec2 dy) {
     vec2 size = vec2(textureSize(high, 0));
-    vec2 box = clamp((min(abs(dx), LONGEST) + min(abs(dy), LONGEST)) * size, vec2(1.0), LONGEST * size);
+    vec2 box = clamp((abs(dx) + abs(dy)) * size, vec2(1.0), LONGEST * size);
     vec2 centre = uv * size;
     Cover columns = cover(centre.x, box.x, textureSize(high, 0).x);
     Cover rows = cover(centre.y, box.y, textureSize(high, 0).y);
