@@ -11,10 +11,11 @@ vec3 to_polygon(vec3 v, vec3 normal, vec3 tangent, float handedness) {
     return vec3(dot(v, tangent), dot(v, bitangent), dot(v, normal));
 }
 
-// The tangents of the angles from the normal to the view, along u and along v: M00 and M11 of the paper's equation
-// (2). A view in the polygon's plane or behind it has no such angle: it shifts nothing.
+// The tangents of the angles from the normal to the unit view, along u and along v: M00 and M11 of the paper's
+// equation (2). A view in the polygon's plane or behind it has no such angle and shifts nothing. Below 1e-6 no bit of
+// view.z is left but its rounding, so that is the plane too; hence no tangent is larger than 1e6.
 vec2 view_tangents(vec3 view) {
-    if (view.z <= 0.0) return vec2(0.0);
+    if (!(view.z > 1e-6)) return vec2(0.0);
     return vec2(view.xy) / view.z;
 }
 

@@ -54,11 +54,13 @@ void wall_unload(void *data) {
 
 /* ---- Drawing ---- */
 
-/* The tangents of the view's angles from the normal at a point of the polygon, in doubles: the paper's tan
- * theta_u and tan theta_v. From behind, or within the plane, there is no such angle and no shift. */
+Vec2 wall_tangents(Vec3 view) {
+    return view.z > 1e-6 * vec3_length(view) ? v2(view.x / view.z, view.y / view.z) : v2(0, 0);
+}
+
+/* The same for a camera's view of a point of the polygon. */
 static Vec2 tangents_at(const Camera *camera, Vec3 point) {
-    Vec3 view = vec3_sub(camera->eye, camera->fov_y_degrees > 0.0 ? point : camera->target);
-    return view.z > 0.0 ? v2(view.x / view.z, view.y / view.z) : v2(0, 0);
+    return wall_tangents(vec3_sub(camera->eye, camera->fov_y_degrees > 0.0 ? point : camera->target));
 }
 
 Image wall_distortion(const Relief *relief, const Camera *camera) {
@@ -152,90 +154,108 @@ static bool along_rows(const Camera *camera) {
            camera->up.z == 0.0;
 }
 
-/* A pixel of the polygon: where, what was looked up there, and what should have been. */
+/* What one picture is measured by, over the pixels at which polygon, picture and truth are there and known.
+ */
+typedef struct {
+    double count, squared_error, squared_step; /* of pixels; texels squared */
+    double shift_texels, tangent;              /* the largest */
+    double pairs, folds, exact_folds;          /* of neighbours in a row */
+} Tally;
+
+/* A pixel: the polygon's u, v there, and what was looked up and should have been. */
 typedef struct {
     bool hit;
-    double u, v, looked_up, exact;
+    double u, v;
+    const float *lookup;
+    const Sample *exact;
 } Spot;
 
-static Spot spot_at(const Shots *shots, const Shot *shot, int x, int y) {
+/* How far one more iteration would move a lookup: the relief's depth there, by the tangents of the pixel's
+ * ray. */
+static Vec2 next_step(const Wall *wall, const Spot *spot, Vec3 way) {
+    const Relief *relief = &wall->relief;
+    double h;
+    image_sample(&wall->height_image, spot->lookup[0], spot->lookup[1], &h);
+    double d = relief->scale * (h - relief->base);
+    return v2(spot->u + d * way.x / way.z - spot->lookup[0],
+              spot->v + d * way.y / way.z / relief->aspect - spot->lookup[1]);
+}
+
+static double squared_texels(Vec2 texels, double du, double dv) {
+    return du * du * texels.x * texels.x + dv * dv * texels.y * texels.y;
+}
+
+static Spot tally_pixel(Tally *tally, const Shots *shots, const Shot *shot, int x, int y) {
     const Wall *wall = shots->frame->data;
     int width = shots->frame->width, height = shots->frame->height;
     Ray ray = camera_ray(&shot->view->camera, width, height, x + 0.5, y + 0.5);
     Sample polygon = truth_plane(ray, 1.0, wall->relief.aspect);
-    const float *lookup = image_at(&shot->picture.lookup, x, y);
-    const Sample *exact = &shot->centres[(size_t)y * width + x];
-    return (Spot){polygon.hit && lookup[3] > 0.5f && exact->hit && !exact->unknown, polygon.u, polygon.v,
-                  lookup[0], exact->u};
+    Spot spot = {false, polygon.u, polygon.v, image_at(&shot->picture.lookup, x, y),
+                 &shot->centres[(size_t)y * width + x]};
+    spot.hit = polygon.hit && spot.lookup[3] > 0.5f && spot.exact->hit && !spot.exact->unknown;
+    if (!spot.hit) return spot;
+    Vec2 texels = wall_texels(wall), step = next_step(wall, &spot, ray.direction);
+    tally->count++;
+    tally->squared_error +=
+        squared_texels(texels, spot.lookup[0] - spot.exact->u, spot.lookup[1] - spot.exact->v);
+    tally->squared_step += squared_texels(texels, step.x, step.y);
+    tally->shift_texels = fmax(
+        tally->shift_texels, sqrt(squared_texels(texels, spot.lookup[0] - spot.u, spot.lookup[1] - spot.v)));
+    tally->tangent = fmax(tally->tangent, hypot(ray.direction.x, ray.direction.y) / fabs(ray.direction.z));
+    return spot;
 }
 
 /* A fold: two neighbours in a row whose u' runs against their polygon's u. Along the shift nothing that is
- * seen of a real relief does that, so it is counted only where rows run along it. */
-static void measure_folds(const Shots *shots, const Shot *shot, Table *table) {
-    double folds = 0, exact_folds = 0, pairs = 0;
+ * seen of a real relief does that. */
+static Tally tally_picture(const Shots *shots, const Shot *shot) {
+    Tally tally = {0};
     for (int y = 0; y < shots->frame->height; y++) {
         Spot before = {0};
         for (int x = 0; x < shots->frame->width; x++) {
-            Spot spot = spot_at(shots, shot, x, y);
+            Spot spot = tally_pixel(&tally, shots, shot, x, y);
             if (spot.hit && before.hit) {
-                pairs++;
-                folds += (spot.looked_up - before.looked_up) * (spot.u - before.u) < 0.0;
-                exact_folds += (spot.exact - before.exact) * (spot.u - before.u) < 0.0;
+                double along = spot.u - before.u;
+                tally.pairs++;
+                tally.folds += ((double)spot.lookup[0] - before.lookup[0]) * along < 0.0;
+                tally.exact_folds += (spot.exact->u - before.exact->u) * along < 0.0;
             }
             before = spot;
         }
     }
-    table_add(table, shots, shot->view, "fold_percent", 100.0 * folds / fmax(pairs, 1), "%");
-    table_add(table, shots, shot->view, "fold_truth_percent", 100.0 * exact_folds / fmax(pairs, 1), "%");
-}
-
-/* How far a lookup is from the polygon's own coordinates, at most; the rms of its error; and the largest
- * tangent of the view's angle over the picture. */
-static void measure_shift(const Shots *shots, const Shot *shot, double *shift, double *error,
-                          double *tangent) {
-    Vec2 texels = wall_texels(shots->frame->data);
-    int width = shots->frame->width, height = shots->frame->height;
-    double sum = 0, count = 0;
-    *shift = *tangent = 0;
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            Spot spot = spot_at(shots, shot, x, y);
-            if (!spot.hit) continue;
-            const float *lookup = image_at(&shot->picture.lookup, x, y);
-            const Sample *exact = &shot->centres[(size_t)y * width + x];
-            Vec3 way = camera_ray(&shot->view->camera, width, height, x + 0.5, y + 0.5).direction;
-            double eu = (lookup[0] - exact->u) * texels.x, ev = (lookup[1] - exact->v) * texels.y;
-            *shift = fmax(*shift, hypot((lookup[0] - spot.u) * texels.x, (lookup[1] - spot.v) * texels.y));
-            *tangent = fmax(*tangent, hypot(way.x, way.y) / fabs(way.z));
-            sum += eu * eu + ev * ev, count++;
-        }
-    }
-    *error = sqrt(sum / fmax(count, 1));
+    return tally;
 }
 
 /* The error's way through the iterations: none is `plain`, one is `per-pixel`. */
-static void add_iterations(const Shots *shots, const Shot *shot, double error, Table *table) {
+static void add_iterations(const Shots *shots, const Shot *shot, double error, double step, Table *table) {
     const Frame *frame = shots->frame;
     const char *name = frame->technique->name;
-    double done = !strcmp(name, "plain") ? 0 : !strcmp(name, "per-pixel") ? 1 : frame->knob;
-    if (done == 0 && strcmp(name, "plain")) return; /* another technique */
-    table_set(table, frame->scene->name, "iterated", 0);
+    bool plain = !strcmp(name, "plain"), one = !strcmp(name, "per-pixel");
+    if (!plain && !one && strcmp(name, "iterated")) return;
+    double done = plain ? 0 : one ? 1 : frame->knob;
+    table_set(table, frame->scene->name, "iterated", 0); /* one line through all of them */
     table_point(table, shots, shot->view, "iteration", "iterations", done, "uv error, rms (texels)", error);
+    table_point(table, shots, shot->view, "next-step", "iterations", done, "next step, rms (texels)", step);
     table_set(table, frame->scene->name, name, frame->knob);
 }
 
 void wall_measure(const Shots *shots, Table *table) {
     const Wall *wall = shots->frame->data;
-    bool first = shots->frame->technique == shots->frame->scene->techniques; /* what belongs to none */
+    bool first = shots->frame->technique == shots->frame->scene->techniques; /* for what belongs to none */
     double steepness = first ? wall_steepness(&wall->relief) : 0;
     if (first) table_add(table, shots, NULL, "steepness_max", steepness, "widths per width");
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];
-        double shift, error, tangent;
-        measure_shift(shots, shot, &shift, &error, &tangent);
-        table_add(table, shots, shot->view, "shift_max_texels", shift, "texels");
-        if (first) table_add(table, shots, shot->view, "contraction_max", tangent * steepness, "1");
-        if (along_rows(&shot->view->camera)) measure_folds(shots, shot, table);
-        add_iterations(shots, shot, error, table);
+        Tally tally = tally_picture(shots, shot);
+        if (!tally.count) continue;
+        double error = sqrt(tally.squared_error / tally.count), step = sqrt(tally.squared_step / tally.count);
+        table_add(table, shots, shot->view, "shift_max_texels", tally.shift_texels, "texels");
+        table_add(table, shots, shot->view, "next_step_texels_rms", step, "texels");
+        if (first) table_add(table, shots, shot->view, "contraction_max", tally.tangent * steepness, "1");
+        if (along_rows(&shot->view->camera) && tally.pairs) {
+            table_add(table, shots, shot->view, "fold_percent", 100.0 * tally.folds / tally.pairs, "%");
+            table_add(table, shots, shot->view, "fold_truth_percent", 100.0 * tally.exact_folds / tally.pairs,
+                      "%");
+        }
+        add_iterations(shots, shot, error, step, table);
     }
 }

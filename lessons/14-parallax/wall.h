@@ -24,6 +24,10 @@ Sample wall_truth(const void *data, Ray ray);
 Vec2 wall_texels(const void *data);
 void wall_measure(const Shots *shots, Table *table); /* swimming, and where the iteration contracts */
 
+/* The paper's tan theta_u and tan theta_v of a vector toward the eye in the polygon's frame, in doubles: what
+ * view_tangents of parallax.glsl is in floats. */
+Vec2 wall_tangents(Vec3 view);
+
 /* The largest |grad d| of the bilinear displacement, in texture widths per width. */
 double wall_steepness(const Relief *relief);
 
