@@ -15,7 +15,7 @@ report: ## install what is missing, build, render and measure every lesson: buil
 	$(Q)perl common/report.pl $(REPORT) $(LESSONS)
 
 $(NUMBERS:%=report-%): report-%: ## one lesson's page: build/report/NN-name.html
-	$(Q)$(MAKE) --no-print-directory $(B)/$(call lesson_of,$*) assets \
+	$(Q)$(MAKE) $(if $(Q),-s) --no-print-directory $(B)/$(call lesson_of,$*) assets \
 		$(patsubst %,$(B)/tests/cases-%,$(filter $(call lesson_of,$*),$(CASES_LESSONS)))
 	$(call measure,$(call lesson_of,$*))
 	$(Q)perl common/report.pl $(REPORT) $(call lesson_of,$*) -- $(LESSONS)
