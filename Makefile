@@ -12,7 +12,8 @@ endif
 
 # The project's own flags; CFLAGS, CXXFLAGS and LDFLAGS are the user's and come after them.
 PACKAGES := OpenImageIO glfw3 osmesa cglm
-TEXEL_FLAGS := -Wall -Wextra -Wpedantic -O2 -g -fPIC -MMD -MP -Icommon
+# (errno and interposition: so that sqrt is one instruction, and a call within the library is a call.)
+TEXEL_FLAGS := -fno-math-errno -fno-semantic-interposition -Wall -Wextra -Wpedantic -O2 -g -fPIC -MMD -MP -Icommon
 TEXEL_CFLAGS := -std=c17 $(TEXEL_FLAGS)
 TEXEL_CXXFLAGS := -std=c++20 $(TEXEL_FLAGS)
 TEXEL_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread

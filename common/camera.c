@@ -18,13 +18,23 @@ static double half_height(const Camera *camera) {
     return camera->fov_y_degrees > 0.0 ? tan(radians(camera->fov_y_degrees) / 2.0) : camera->height / 2.0;
 }
 
-Ray camera_ray(const Camera *camera, int width, int height, double x, double y) {
+Rays camera_rays(const Camera *camera, int width, int height) {
     Axes axes = camera_axes(camera);
     double pixel = 2.0 * half_height(camera) / height; /* pixels are square */
-    Vec3 aside = vec3_add(vec3_scale(axes.right, (x - width / 2.0) * pixel),
-                          vec3_scale(axes.up, (y - height / 2.0) * pixel));
-    if (camera->fov_y_degrees > 0.0) return (Ray){camera->eye, vec3_normalize(vec3_add(axes.forward, aside))};
-    return (Ray){vec3_add(camera->eye, aside), axes.forward};
+    bool perspective = camera->fov_y_degrees > 0.0;
+    Vec3 right = vec3_scale(axes.right, pixel), up = vec3_scale(axes.up, pixel);
+    Vec3 middle = perspective ? axes.forward : camera->eye;
+    return (Rays){
+        .perspective = perspective,
+        .fixed = perspective ? camera->eye : axes.forward,
+        .corner = vec3_sub(middle, vec3_add(vec3_scale(right, width / 2.0), vec3_scale(up, height / 2.0))),
+        .right = right,
+        .up = up};
+}
+
+Ray camera_ray(const Camera *camera, int width, int height, double x, double y) {
+    Rays rays = camera_rays(camera, width, height);
+    return rays_at(&rays, x, y);
 }
 
 Vec2 camera_project(const Camera *camera, int width, int height, Vec3 p) {
@@ -71,4 +81,32 @@ Camera camera_mix(const Camera *a, const Camera *b, double t) {
                     .height = mix(a->height, b->height, t),
                     .near = mix(a->near, b->near, t),
                     .far = mix(a->far, b->far, t)};
+}
+
+/* ---- Moving by hand ---- */
+
+static Vec3 turned(Vec3 v, Vec3 axis, double angle) { /* Rodrigues' formula; the axis has length one */
+    Vec3 along = vec3_scale(axis, vec3_dot(axis, v) * (1.0 - cos(angle)));
+    return vec3_add(vec3_add(vec3_scale(v, cos(angle)), vec3_scale(vec3_cross(axis, v), sin(angle))), along);
+}
+
+void camera_orbit(Camera *camera, double right, double up) {
+    const double pole = radians(1.0);
+    Vec3 axis = vec3_normalize(camera->up), way = vec3_sub(camera->eye, camera->target);
+    way = turned(way, axis, right);
+    double angle = acos(clamp(vec3_dot(vec3_normalize(way), axis), -1.0, 1.0));
+    double wanted = clamp(angle - up, pole, PI - pole);
+    way = turned(way, vec3_normalize(vec3_cross(axis, way)), wanted - angle);
+    camera->eye = vec3_add(camera->target, way);
+}
+
+void camera_nearer(Camera *camera, double factor) {
+    if (camera->fov_y_degrees > 0.0) {
+        Vec3 way = vec3_sub(camera->eye, camera->target);
+        double distance = vec3_length(way), nearest = fmin(distance, 2.0 * camera->near);
+        double wanted = clamp(distance / factor, nearest, fmax(distance, camera->far));
+        camera->eye = vec3_add(camera->target, vec3_scale(way, wanted / distance));
+    } else {
+        camera->height = clamp(camera->height / factor, 1e-6, 1e6);
+    }
 }

@@ -5,6 +5,7 @@
 #include "vec.h"
 
 #include <cglm/types.h>
+#include <stdbool.h>
 
 typedef struct {
     Vec3 eye, target, up; /* right-handed, y up; up need only not be parallel to the view */
@@ -18,6 +19,20 @@ typedef struct {
  * orthographic ones in the plane through the eye. */
 Ray camera_ray(const Camera *camera, int width, int height, double x, double y);
 
+/* The same for many points of one picture: all that does not depend on the point, worked out once. */
+typedef struct {
+    bool perspective;
+    Vec3 fixed;             /* what all rays share: their origin in perspective, else their direction */
+    Vec3 corner, right, up; /* of what they do not: its value at (0, 0), and what a pixel adds to it */
+} Rays;
+
+Rays camera_rays(const Camera *camera, int width, int height);
+
+static inline Ray rays_at(const Rays *rays, double x, double y) {
+    Vec3 own = vec3_add(rays->corner, vec3_add(vec3_scale(rays->right, x), vec3_scale(rays->up, y)));
+    return rays->perspective ? (Ray){rays->fixed, vec3_normalize(own)} : (Ray){own, rays->fixed};
+}
+
 /* Where the world's point p appears: the inverse of camera_ray, pixels from the lower left corner. Only for
  * points in front of a perspective eye. */
 Vec2 camera_project(const Camera *camera, int width, int height, Vec3 p);
@@ -28,5 +43,13 @@ void camera_matrices(const Camera *camera, int width, int height, mat4 view, mat
 
 /* The camera t of the way from a to b, two of one kind: every number interpolated linearly. */
 Camera camera_mix(const Camera *a, const Camera *b, double t);
+
+/* Moves the eye around the target, by angles in radians: to the right about the camera's up, and up, but not
+ * over the poles. */
+void camera_orbit(Camera *camera, double right, double up);
+
+/* Makes what is at the target look `factor` times as large: by coming nearer, or where that changes nothing,
+ * in an orthographic picture, by showing less of the world. */
+void camera_nearer(Camera *camera, double factor);
 
 #endif

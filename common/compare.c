@@ -96,15 +96,8 @@ const char *compare(const Image *test, const Image *reference, Difference *diffe
     parallel_for(test->height, compare_row, &c);
     Difference result = {0};
     const char *refused = sum_rows(&c, &result);
-    if (!refused) {
-        Image errors;
-        result.flip = flip(&c.shown[0], &c.shown[1], &errors);
-        *difference = result;
-        if (map)
-            *map = errors;
-        else
-            image_destroy(&errors);
-    }
+    if (!refused && map) result.flip = flip(&c.shown[0], &c.shown[1], map);
+    if (!refused) *difference = result;
     for (int i = 0; i < 2; i++) image_destroy(&c.shown[i]);
     free(c.rows);
     return refused;

@@ -2,6 +2,7 @@
 /* A lesson's command line. */
 #include "lesson.h"
 
+#include "command.h"
 #include "context.h"
 #include "fail.h"
 #include "measure.h"
@@ -111,15 +112,17 @@ static void list(const Lesson *lesson, const Options *options, const Choice *cho
 
 static void print_help(const Lesson *lesson) {
     printf("%s: %s\n\n"
-           "%s                      a window\n"
+           "%s                      a window; H there lists its keys\n"
            "   --list                scenes, techniques, knobs, views; cameras, sizes, scales to 17 digits\n"
            "   --render DIR          every picture: DIR/SCENE-VIEW-TECHNIQUE[-KNOB].exr and .png\n"
            "   --truth DIR           the exact ones: DIR/SCENE-VIEW-truth.exr and .png\n"
            "   --errors DIR          the differences: DIR/SCENE-VIEW-TECHNIQUE[-KNOB]-error.png\n"
            "   --measure FILE.csv    the table of speed and error; its curves in FILE-curves.csv\n"
+           "   --only FILE.csv       measure only the rows that it names, as an expect.csv does\n"
            "   --scene S --technique T --knob K --view V\n"
            "                         narrow those, or set the window's first state; a view may be a camera:\n"
-           "                         EX,EY,EZ,TX,TY,TZ,F (eye, target, vertical angle in degrees)\n"
+           "                         EX,EY,EZ,TX,TY,TZ,F (eye, target, vertical angle in degrees); F may be\n"
+           "                         Ho (orthographic: the height that it shows), and ,UX,UY,UZ (up) follow\n"
            "   --size WxH            pixels, 1 to %d a side; 640x480 without it\n"
            "   --colour FILE --height FILE --scale X\n"
            "                         your own images; the height's range in texture widths\n"
@@ -152,30 +155,12 @@ static void parse_size(const char *argument, Choice *choice) {
     if (*end) fail_usage("--size %s: expected WIDTHxHEIGHT", argument);
 }
 
-/* A camera given by numbers, as the window's C prints it. */
-static bool parse_camera(const char *argument, View *view) {
-    double n[7];
-    int length = 0;
-    if (sscanf(argument, "%lf,%lf,%lf,%lf,%lf,%lf,%lf%n", &n[0], &n[1], &n[2], &n[3], &n[4], &n[5], &n[6],
-               &length) != 7 ||
-        argument[length] || !(n[6] > 0.0 && n[6] < 180.0))
-        return false;
-    *view = (View){"camera",
-                   {.eye = v3(n[0], n[1], n[2]),
-                    .target = v3(n[3], n[4], n[5]),
-                    .up = v3(0, 1, 0),
-                    .fov_y_degrees = n[6],
-                    .near = 0.01,
-                    .far = 1000.0}};
-    return true;
-}
-
 /* Every name on the command line must be that of something in a scene that is left. */
 static void check_choice(const Lesson *lesson, const Options *options, Choice *choice) {
-    static View custom;
+    static View custom = {.name = "camera"};
     bool scene_found = false, technique_found = false, view_found = false, colour_found = false;
     bool height_found = false, knob_found = false;
-    if (choice->view && parse_camera(choice->view, &custom)) choice->custom = &custom;
+    if (choice->view && command_camera(choice->view, &custom.camera)) choice->custom = &custom;
     for (int i = 0; i < scene_count(lesson); i++) {
         const Scene *scene = &lesson->scenes[i];
         if (choice->scene && strcmp(choice->scene, scene->name)) continue;
@@ -229,93 +214,44 @@ static void check_writable(const char *path) {
     if (access(path, W_OK) != 0 && errno != ENOENT) fail("%s: cannot be written: %s", path, strerror(errno));
 }
 
-enum {
-    LIST = 1,
-    RENDER,
-    TRUTH,
-    ERRORS,
-    MEASURE,
-    SCENE,
-    TECHNIQUE,
-    KNOB,
-    VIEW,
-    SIZE,
-    COLOUR,
-    HEIGHT,
-    SCALE,
-    HELP
+/* The letters are only these options' names in the switch below; there are no short ones. */
+static const struct option long_options[] = {
+    {"list", no_argument, NULL, 'l'},          {"render", required_argument, NULL, 'r'},
+    {"truth", required_argument, NULL, 't'},   {"errors", required_argument, NULL, 'e'},
+    {"measure", required_argument, NULL, 'm'}, {"only", required_argument, NULL, 'o'},
+    {"scene", required_argument, NULL, 'S'},   {"technique", required_argument, NULL, 'T'},
+    {"knob", required_argument, NULL, 'K'},    {"view", required_argument, NULL, 'V'},
+    {"size", required_argument, NULL, 'W'},    {"colour", required_argument, NULL, 'C'},
+    {"height", required_argument, NULL, 'H'},  {"scale", required_argument, NULL, 'X'},
+    {"help", no_argument, NULL, 'h'},          {0},
 };
-
-static const struct option long_options[] = {{"list", no_argument, NULL, LIST},
-                                             {"render", required_argument, NULL, RENDER},
-                                             {"truth", required_argument, NULL, TRUTH},
-                                             {"errors", required_argument, NULL, ERRORS},
-                                             {"measure", required_argument, NULL, MEASURE},
-                                             {"scene", required_argument, NULL, SCENE},
-                                             {"technique", required_argument, NULL, TECHNIQUE},
-                                             {"knob", required_argument, NULL, KNOB},
-                                             {"view", required_argument, NULL, VIEW},
-                                             {"size", required_argument, NULL, SIZE},
-                                             {"colour", required_argument, NULL, COLOUR},
-                                             {"height", required_argument, NULL, HEIGHT},
-                                             {"scale", required_argument, NULL, SCALE},
-                                             {"help", no_argument, NULL, HELP},
-                                             {0}};
 
 int lesson_run(const Lesson *lesson, int argc, char **argv) {
     Options options = {.scale = NAN};
     Choice choice = {.width = 640, .height = 480};
     Orders orders = {0};
+    const char *only = NULL;
     bool listing = false;
     opterr = 0; /* the messages are ours */
     for (int option; (option = getopt_long(argc, argv, ":", long_options, NULL)) != -1;) {
         switch (option) {
-        case LIST:
-            listing = true;
-            break;
-        case RENDER:
-            orders.render = optarg;
-            break;
-        case TRUTH:
-            orders.truth = optarg;
-            break;
-        case ERRORS:
-            orders.errors = optarg;
-            break;
-        case MEASURE:
-            orders.measure = optarg;
-            break;
-        case SCENE:
-            choice.scene = optarg;
-            break;
-        case TECHNIQUE:
-            choice.technique = optarg;
-            break;
-        case KNOB:
-            choice.knob = parse_number("--knob", optarg, 1e-6);
-            break;
-        case VIEW:
-            choice.view = optarg;
-            break;
-        case SIZE:
-            parse_size(optarg, &choice);
-            break;
-        case COLOUR:
-            options.colour = optarg;
-            break;
-        case HEIGHT:
-            options.height = optarg;
-            break;
-        case SCALE:
-            options.scale = parse_number("--scale", optarg, 0.0);
-            break;
-        case HELP:
-            print_help(lesson);
-            return 0;
-        case ':':
-            fail_usage("%s: needs a value; --help lists the options", argv[optind - 1]);
-        default:
-            fail_usage("%s: no such option; --help lists them", argv[optind - 1]);
+        case 'l': listing = true; break;
+        case 'r': orders.render = optarg; break;
+        case 't': orders.truth = optarg; break;
+        case 'e': orders.errors = optarg; break;
+        case 'm': orders.measure = optarg; break;
+        case 'o': only = optarg; break;
+        case 'S': choice.scene = optarg; break;
+        case 'T': choice.technique = optarg; break;
+        case 'K': choice.knob = parse_number("--knob", optarg, 1e-6); break;
+        case 'V': choice.view = optarg; break;
+        case 'W': parse_size(optarg, &choice); break;
+        case 'C': options.colour = optarg; break;
+        case 'H': options.height = optarg; break;
+        case 'X': options.scale = parse_number("--scale", optarg, 0.0); break;
+        case 'h': print_help(lesson); return 0;
+        case ':': fail_usage("%s: needs a value; --help lists the options", argv[optind - 1]);
+        default: fail_usage("%s: no such option; --help lists them", argv[optind - 1]);
         }
     }
     if (optind < argc) fail_usage("%s: nothing is expected here; --help lists the options", argv[optind]);
@@ -335,8 +271,11 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
         window_run(lesson, &options, &choice);
         return 0;
     }
+    Only *rows = only ? only_load(only) : NULL;
+    choice.only = rows;
     Context *context = context_offscreen();
     measure_all(lesson, &options, &choice, &orders);
+    only_destroy(rows);
     context_destroy(context);
     return 0;
 }

@@ -63,9 +63,13 @@ typedef struct {
 typedef struct {
     const View *view;
     Picture picture;
-    Image exact;           /* the box's reference */
-    const Sample *centres; /* the truth along each pixel's centre ray, row 0 first */
+    const Sample *centres;       /* the truth along each pixel's centre ray, row 0 first */
+    struct Reference *reference; /* for shot_exact */
 } Shot;
+
+/* The exact picture that the shot's is held against (the box's), rendered when first asked for; not the
+ * caller's. */
+const Image *shot_exact(const Shot *shot);
 
 typedef struct {
     const Frame *frame; /* technique, knob, data, size; its camera and view belong to the first shot */
@@ -94,7 +98,7 @@ struct Scene {
     const char *colour, *height; /* assets by file name; --colour and --height replace them */
     const char *other[2];        /* assets that cannot be replaced */
     Fact facts[FACTS_MAX];
-    int samples;    /* rays a pixel of the truth; 0: 32 */
+    int samples;    /* rays a pixel of the truth; 0: 18 */
     bool gaussian;  /* report against the Gaussian pixel filter too */
     Camera path[2]; /* for `flicker`, 16 frames from one to the other; none where both are 0 */
     void *(*load)(const Options *options); /* with the context current */

@@ -10,14 +10,16 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { ROUNDS = 9, PATH_FRAMES = 16 };
+enum { ROUNDS = 7, SAMPLES = 18, PATH_FRAMES = 16 };
 
-typedef struct {
+/* What pictures from one view are held against. */
+typedef struct Reference {
     const View *view;
-    Exact box, gaussian; /* gaussian.image.pixels is NULL where the scene does not ask for it */
+    const Truth *truth;
+    int width, height, samples;
+    Exact exact[2]; /* by PixelFilter; made when first asked for */
     Sample *centres;
-    Image known; /* what is left for metrics: see hide_unknown */
-    double known_share;
+    double known_share; /* of the pixels: see hide_unknown */
 } Reference;
 
 /* One technique with one value of its knob. */
@@ -91,41 +93,53 @@ static Frame frame_of(const Session *session, const Variant *variant, const View
                        session->choice->height);
 }
 
+static int samples_of(const Scene *scene) { return scene->samples ? scene->samples : SAMPLES; }
+
 static Reference reference_create(Session *session, const View *view) {
     const Scene *scene = session->stage.scene;
-    const Truth *truth = &session->stage.truth;
-    int width = session->choice->width, height = session->choice->height;
-    int samples = scene->samples ? scene->samples : 32;
-    Reference reference = {.view = view, .known_share = 1.0};
-    reference.box = truth_render(truth, &view->camera, width, height, samples, FILTER_BOX);
-    if (scene->gaussian)
-        reference.gaussian = truth_render(truth, &view->camera, width, height, samples, FILTER_GAUSSIAN);
-    reference.centres = truth_centres(truth, &view->camera, width, height);
-    size_t count = (size_t)width * height, unknown = 0;
+    Reference reference = {.view = view,
+                           .truth = &session->stage.truth,
+                           .width = session->choice->width,
+                           .height = session->choice->height,
+                           .samples = samples_of(scene)};
+    reference.centres = truth_centres(reference.truth, &view->camera, reference.width, reference.height);
+    size_t count = (size_t)reference.width * reference.height, unknown = 0;
     for (size_t i = 0; i < count; i++) unknown += reference.centres[i].unknown;
     reference.known_share = 1.0 - (double)unknown / (double)count;
     if (reference.known_share == 0.0) fail("%s-%s: the truth knows no pixel", scene->name, view->name);
     return reference;
 }
 
-static void reference_destroy(Reference *reference) {
-    image_destroy(&reference->box.image);
-    image_destroy(&reference->gaussian.image);
-    free(reference->centres);
+static const Exact *reference_exact(Reference *reference, PixelFilter filter) {
+    Exact *exact = &reference->exact[filter];
+    if (!exact->image.pixels)
+        *exact = truth_render(reference->truth, &reference->view->camera, reference->width, reference->height,
+                              reference->samples, filter);
+    return exact;
 }
 
+const Image *shot_exact(const Shot *shot) { return &reference_exact(shot->reference, FILTER_BOX)->image; }
+
+/* How exact the exact pictures are that were asked for. */
 static void reference_report(Session *session, const Reference *reference) {
-    if (session->orders->truth) {
-        char *name = text("%s-%s", session->stage.scene->name, reference->view->name);
-        save_picture(&reference->box.image, session->orders->truth, name, "-truth", true);
-        free(name);
-    }
-    if (!session->table) return;
+    static const char *const metrics[] = {"truth_rmse", "truth_rmse_gaussian"};
     table_set(session->table, session->stage.scene->name, "truth", 0);
-    table_row(session->table, reference->view->name, "truth_rmse", reference->box.rmse, "linear");
-    if (reference->gaussian.image.pixels)
-        table_row(session->table, reference->view->name, "truth_rmse_gaussian", reference->gaussian.rmse,
-                  "linear");
+    for (int filter = 0; filter < 2; filter++)
+        if (reference->exact[filter].image.pixels)
+            table_row(session->table, reference->view->name, metrics[filter], reference->exact[filter].rmse,
+                      "linear");
+}
+
+static void reference_save(const Session *session, Reference *reference) {
+    char *name = text("%s-%s", session->stage.scene->name, reference->view->name);
+    save_picture(&reference_exact(reference, FILTER_BOX)->image, session->orders->truth, name, "-truth",
+                 true);
+    free(name);
+}
+
+static void reference_destroy(Reference *reference) {
+    for (int filter = 0; filter < 2; filter++) image_destroy(&reference->exact[filter].image);
+    free(reference->centres);
 }
 
 /* ---- Error ---- */
@@ -138,31 +152,43 @@ static void hide_unknown(Image *picture, const Image *exact, const Sample *centr
         if (centres[i].unknown) memcpy(picture->pixels + 3 * i, exact->pixels + 3 * i, 3 * sizeof(float));
 }
 
-static void report_difference(Session *session, const Frame *frame, Image *picture, const Exact *exact,
-                              const Reference *reference, const char *suffix) {
-    const char *view = frame->view->name;
-    Difference difference;
-    Image map;
-    double share = reference->known_share;
-    if (share < 1.0) hide_unknown(picture, &exact->image, reference->centres);
-    const char *reason = compare(picture, &exact->image, &difference, &map);
-    char *name = picture_name(frame);
-    if (reason) fail("%s: %s", name, reason);
-    const struct {
-        const char *metric, *unit;
-        double value;
-    } rows[] = {{"rmse", "linear", difference.rmse / sqrt(share)},
-                {"psnr_db", "dB", fmin(100.0, difference.psnr_db + 10.0 * log10(share))},
-                {"flip", "1", difference.flip / share},
-                {"max_abs", "linear", difference.max_abs}};
-    for (int i = 0; session->table && i < 4; i++) {
-        char *metric = text("%s%s", rows[i].metric, suffix);
-        table_row(session->table, view, metric, rows[i].value, rows[i].unit);
-        free(metric);
+/* Whether the table should have such a row. */
+static bool wants_row(const Session *session, const Variant *variant, const char *view, const char *metric) {
+    return session->orders->measure && only_wants(session->choice->only, session->stage.scene->name,
+                                                  variant->technique->name, variant->knob, view, metric);
+}
+
+static void report_difference(Session *session, const Variant *variant, Image *picture, Reference *reference,
+                              PixelFilter filter) {
+    static const char *const names[2][4] = {
+        {"rmse", "psnr_db", "max_abs", "flip"},
+        {"rmse_gaussian", "psnr_db_gaussian", "max_abs_gaussian", "flip_gaussian"}};
+    static const char *const units[] = {"linear", "dB", "linear", "1"};
+    const Scene *scene = session->stage.scene;
+    const char *view = reference->view->name, *errors = filter == FILTER_BOX ? session->orders->errors : NULL;
+    bool wanted[4], any = errors != NULL;
+    for (int i = 0; i < 4; i++) {
+        wanted[i] = wants_row(session, variant, view, names[filter][i]);
+        any = any || wanted[i];
     }
-    if (session->orders->errors && !*suffix) {
+    if (!any) return;
+    const Image *exact = &reference_exact(reference, filter)->image;
+    Frame frame = frame_of(session, variant, reference->view);
+    char *name = picture_name(&frame);
+    Difference difference;
+    Image map = {0};
+    double share = reference->known_share;
+    if (share < 1.0) hide_unknown(picture, exact, reference->centres);
+    const char *reason = compare(picture, exact, &difference, errors || wanted[3] ? &map : NULL);
+    if (reason) fail("%s/%s: %s", scene->name, name, reason);
+    const double values[] = {difference.rmse / sqrt(share),
+                             fmin(100.0, difference.psnr_db + 10.0 * log10(share)), difference.max_abs,
+                             difference.flip / share};
+    for (int i = 0; i < 4; i++)
+        if (wanted[i]) table_row(session->table, view, names[filter][i], values[i], units[i]);
+    if (errors) {
         Image heat = compare_heat(&map);
-        save_picture(&heat, session->orders->errors, name, "-error", false);
+        save_picture(&heat, errors, name, "-error", false);
         image_destroy(&heat);
     }
     image_destroy(&map);
@@ -222,11 +248,9 @@ static void measure_errors(Session *session, int v) {
             free(name);
         }
         if (session->table && scene->texels) report_lookup(session, &frame, &picture, reference);
-        if (session->table || session->orders->errors)
-            report_difference(session, &frame, &picture.colour, &reference->box, reference, "");
-        if (session->table && scene->gaussian)
-            report_difference(session, &frame, &picture.colour, &reference->gaussian, reference, "_gaussian");
-        shots[i] = (Shot){reference->view, picture, reference->box.image, reference->centres};
+        report_difference(session, variant, &picture.colour, reference, FILTER_BOX);
+        if (scene->gaussian) report_difference(session, variant, &picture.colour, reference, FILTER_GAUSSIAN);
+        shots[i] = (Shot){reference->view, picture, reference->centres, reference};
         progress_step(session->stage.lesson, scene->name);
     }
     if (session->table && scene->measure)
@@ -236,25 +260,40 @@ static void measure_errors(Session *session, int v) {
 
 /* ---- Flicker ---- */
 
+static bool wants_flicker(const Session *session, const Variant *variant) {
+    return session->stage.scene->path[0].far > 0.0 && wants_row(session, variant, "path", "flicker");
+}
+
+/* The variants that a row is wanted of, in their order; how many. */
+static int choose_for_flicker(const Session *session, const Variant *chosen[VARIANTS_MAX]) {
+    int count = 0;
+    for (int v = 0; v < session->variant_count; v++)
+        if (session->variants[v].wanted && wants_flicker(session, &session->variants[v]))
+            chosen[count++] = &session->variants[v];
+    return count;
+}
+
 /* The change of (picture - exact) from one frame of the path to the next, summed over all of them. The
  * path is drawn at half the size; the noise of the truth, the same at a pixel in every frame, mostly cancels.
  */
 static void measure_flicker(Session *session) {
+    const Variant *variants[VARIANTS_MAX];
+    int variant_count = choose_for_flicker(session, variants);
+    if (!variant_count) return;
     const Scene *scene = session->stage.scene;
     int width = (session->choice->width + 1) / 2, height = (session->choice->height + 1) / 2;
     size_t count = (size_t)width * height * 3;
     View view = {.name = "path"};
-    double *sums = allocate((size_t)session->variant_count, sizeof(double));
+    double sums[VARIANTS_MAX] = {0};
     Picture picture = picture_create(width, height, false);
-    float *before = allocate(count * (size_t)session->variant_count, sizeof(float));
+    float *before = allocate(count * (size_t)variant_count, sizeof(float));
     for (int k = 0; k < PATH_FRAMES; k++) {
         view.camera = camera_mix(&scene->path[0], &scene->path[1], k / (PATH_FRAMES - 1.0));
-        int samples = scene->samples ? scene->samples : 32;
-        Exact exact = truth_render(&session->stage.truth, &view.camera, width, height, samples, FILTER_BOX);
-        for (int v = 0; v < session->variant_count; v++) {
-            const Variant *variant = &session->variants[v];
+        Exact exact =
+            truth_render(&session->stage.truth, &view.camera, width, height, samples_of(scene), FILTER_BOX);
+        for (int v = 0; v < variant_count; v++) {
             Frame frame =
-                stage_frame(&session->stage, variant->technique, variant->knob, &view, width, height);
+                stage_frame(&session->stage, variants[v]->technique, variants[v]->knob, &view, width, height);
             stage_draw(&session->stage, &frame, &picture);
             float *last = before + count * (size_t)v;
             for (size_t i = 0; i < count; i++) {
@@ -266,76 +305,99 @@ static void measure_flicker(Session *session) {
         image_destroy(&exact.image);
         progress_step(session->stage.lesson, "flicker");
     }
-    for (int v = 0; v < session->variant_count; v++) {
-        const Variant *variant = &session->variants[v];
-        if (!variant->wanted) continue;
-        table_set(session->table, scene->name, variant->technique->name, variant->knob);
+    for (int v = 0; v < variant_count; v++) {
+        table_set(session->table, scene->name, variants[v]->technique->name, variants[v]->knob);
         table_row(session->table, "path", "flicker", sqrt(sums[v] / ((PATH_FRAMES - 1.0) * (double)count)),
                   "linear");
     }
     free(before);
-    free(sums);
     picture_destroy(&picture);
 }
 
 /* ---- Speed ---- */
+
+static bool wants_cost(const Session *session, const Variant *variant, const char *view) {
+    return wants_row(session, variant, view, "ns_per_pixel") ||
+           wants_row(session, variant, view, "cost_ratio") ||
+           wants_row(session, variant, view, "prepare_ns_per_pixel");
+}
+
+/* The variants whose cost is wanted, behind the one that costs are held against; how many, 0 if it stands
+ * alone. */
+static int choose_for_speed(const Session *session, const char *view, int chosen[VARIANTS_MAX]) {
+    int count = 0;
+    chosen[count++] = 0;
+    for (int v = 1; v < session->variant_count; v++)
+        if (wants_cost(session, &session->variants[v], view)) chosen[count++] = v;
+    return count > 1 || wants_cost(session, &session->variants[0], view) ? count : 0;
+}
+
+typedef struct {
+    double draw_ns[ROUNDS], ratio[ROUNDS], prepare_ns[ROUNDS];
+} Timing;
 
 static int by_size(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
+static void report_timing(Session *session, int v, int view_index, Timing *timing) {
+    const Variant *variant = &session->variants[v];
+    const char *view = session->references[view_index].view->name;
+    double pixels = session->pixels_drawn[v][view_index];
+    qsort(timing->draw_ns, ROUNDS, sizeof(double), by_size);
+    qsort(timing->ratio, ROUNDS, sizeof(double), by_size);
+    qsort(timing->prepare_ns, ROUNDS, sizeof(double), by_size);
+    table_set(session->table, session->stage.scene->name, variant->technique->name, variant->knob);
+    table_row(session->table, view, "ns_per_pixel", timing->draw_ns[0] / pixels, "ns");
+    table_row(session->table, view, "cost_ratio", timing->ratio[ROUNDS / 2], "1");
+    if (variant->technique->prepare)
+        table_row(session->table, view, "prepare_ns_per_pixel", timing->prepare_ns[0] / pixels, "ns");
+}
+
 /* All variants from one view take turns, so that what else the machine does falls on all alike. */
 static void measure_speed(Session *session, int view_index) {
     const View *view = session->references[view_index].view;
-    int count = session->variant_count;
-    double(*draw)[ROUNDS] = allocate((size_t)count, sizeof *draw);
-    double(*ratio)[ROUNDS] = allocate((size_t)count, sizeof *ratio);
-    double *fastest = allocate((size_t)count, sizeof *fastest),
-           *prepare = allocate((size_t)count, sizeof *prepare);
+    int chosen[VARIANTS_MAX], count = choose_for_speed(session, view->name, chosen);
+    if (!count) return;
+    Timing *timings = allocate((size_t)count, sizeof *timings);
     Picture scratch = picture_create(session->choice->width, session->choice->height, false);
     for (int round = -1; round < ROUNDS; round++) { /* round -1 warms up and is not counted */
-        for (int v = 0; v < count; v++) {
-            Frame frame = frame_of(session, &session->variants[v], view);
+        for (int i = 0; i < count; i++) {
+            Frame frame = frame_of(session, &session->variants[chosen[i]], view);
             Cost cost = stage_time(&session->stage, &frame, &scratch);
             if (round < 0) continue;
-            draw[v][round] = cost.draw_ns;
-            ratio[v][round] = cost.draw_ns / draw[0][round];
-            fastest[v] = round ? fmin(fastest[v], cost.draw_ns) : cost.draw_ns;
-            prepare[v] = round ? fmin(prepare[v], cost.prepare_ns) : cost.prepare_ns;
+            timings[i].draw_ns[round] = cost.draw_ns;
+            timings[i].prepare_ns[round] = cost.prepare_ns;
+            timings[i].ratio[round] = cost.draw_ns / timings[0].draw_ns[round];
         }
     }
-    for (int v = 0; v < count; v++) {
-        const Variant *variant = &session->variants[v];
-        if (!variant->wanted) continue;
-        double pixels = session->pixels_drawn[v][view_index];
-        qsort(ratio[v], ROUNDS, sizeof(double), by_size);
-        table_set(session->table, session->stage.scene->name, variant->technique->name, variant->knob);
-        table_row(session->table, view->name, "ns_per_pixel", fastest[v] / pixels, "ns");
-        table_row(session->table, view->name, "cost_ratio", ratio[v][ROUNDS / 2], "1");
-        if (variant->technique->prepare)
-            table_row(session->table, view->name, "prepare_ns_per_pixel", prepare[v] / pixels, "ns");
-    }
-    free(draw);
-    free(ratio);
-    free(fastest);
-    free(prepare);
+    for (int i = 0; i < count; i++)
+        if (session->variants[chosen[i]].wanted) report_timing(session, chosen[i], view_index, &timings[i]);
+    free(timings);
     picture_destroy(&scratch);
+    progress_step(session->stage.lesson, "speed");
 }
 
 /* ---- All of it ---- */
 
 static bool chosen(const char *choice, const char *name) { return !choice || strcmp(choice, name) == 0; }
 
+static bool scene_chosen(const Choice *choice, const Scene *scene) {
+    return chosen(choice->scene, scene->name) &&
+           only_wants(choice->only, scene->name, NULL, ONLY_ANY_KNOB, NULL, NULL);
+}
+
 static void choose_variants(Session *session) {
     const Scene *scene = session->stage.scene;
     const Choice *choice = session->choice;
     for (int t = 0; t < technique_count(scene); t++) {
         const Technique *technique = &scene->techniques[t];
-        bool wanted = chosen(choice->technique, technique->name);
         bool one_knob = choice->knob > 0.0 && technique->knob.name; /* of the list or not */
         for (int k = 0; k < (one_knob ? 1 : knob_count(technique)); k++) {
             double knob = one_knob ? choice->knob : technique->knob.values[k];
+            bool wanted = chosen(choice->technique, technique->name) &&
+                          only_wants(choice->only, scene->name, technique->name, knob, NULL, NULL);
             if (wanted || (t == 0 && k == 0)) /* costs are held against the first */
                 session->variants[session->variant_count++] = (Variant){technique, knob, wanted};
         }
@@ -349,11 +411,11 @@ static int choose_views(const Scene *scene, const Choice *choice, const View *vi
     }
     int count = 0;
     for (int i = 0; i < view_count(scene); i++)
-        if (chosen(choice->view, scene->views[i].name)) views[count++] = &scene->views[i];
+        if (chosen(choice->view, scene->views[i].name) &&
+            only_wants(choice->only, scene->name, NULL, ONLY_ANY_KNOB, scene->views[i].name, NULL))
+            views[count++] = &scene->views[i];
     return count;
 }
-
-static bool has_path(const Scene *scene) { return scene->path[0].far > 0.0; }
 
 static void measure_scene(Session *session) {
     const Scene *scene = session->stage.scene;
@@ -364,30 +426,30 @@ static void measure_scene(Session *session) {
     choose_variants(session);
     for (int i = 0; i < session->view_count; i++) {
         session->references[i] = reference_create(session, views[i]);
-        reference_report(session, &session->references[i]);
+        if (orders->truth) reference_save(session, &session->references[i]);
         progress_step(session->stage.lesson, "truth");
     }
     if (orders->render || orders->errors || orders->measure)
         for (int v = 0; v < session->variant_count; v++)
             if (session->variants[v].wanted) measure_errors(session, v);
     if (!orders->measure) return;
-    if (has_path(scene)) measure_flicker(session);
-    for (int i = 0; i < session->view_count; i++) {
-        measure_speed(session, i);
-        progress_step(session->stage.lesson, "speed");
-    }
+    measure_flicker(session);
+    for (int i = 0; i < session->view_count; i++) measure_speed(session, i);
+    for (int i = 0; i < session->view_count; i++) reference_report(session, &session->references[i]);
 }
 
 /* The steps that progress_step will be called for, of one scene. */
 static int count_steps(const Scene *scene, const Choice *choice, const Orders *orders) {
     const View *views[VIEWS_MAX];
-    Session session = {.stage = {.scene = scene}, .choice = choice};
+    Session session = {.stage = {.scene = scene}, .choice = choice, .orders = orders};
     choose_variants(&session);
-    int view_count = choose_views(scene, choice, views), wanted = 0;
+    int view_count = choose_views(scene, choice, views), wanted = 0, steps = view_count;
     for (int v = 0; v < session.variant_count; v++) wanted += session.variants[v].wanted;
-    int steps = view_count; /* of the truth */
     if (orders->render || orders->errors || orders->measure) steps += view_count * wanted;
-    if (orders->measure) steps += view_count + (has_path(scene) ? PATH_FRAMES : 0);
+    const Variant *flickering[VARIANTS_MAX];
+    int timed[VARIANTS_MAX];
+    if (choose_for_flicker(&session, flickering)) steps += PATH_FRAMES;
+    for (int i = 0; i < view_count; i++) steps += choose_for_speed(&session, views[i]->name, timed) > 0;
     return steps;
 }
 
@@ -396,11 +458,11 @@ void measure_all(const Lesson *lesson, const Options *options, const Choice *cho
     progress.said = progress.start;
     progress.done = progress.total = 0;
     for (int i = 0; i < scene_count(lesson); i++)
-        if (chosen(choice->scene, lesson->scenes[i].name))
+        if (scene_chosen(choice, &lesson->scenes[i]))
             progress.total += count_steps(&lesson->scenes[i], choice, orders);
     Table *table = orders->measure ? table_create(lesson->name) : NULL;
     for (int i = 0; i < scene_count(lesson); i++) {
-        if (!chosen(choice->scene, lesson->scenes[i].name)) continue;
+        if (!scene_chosen(choice, &lesson->scenes[i])) continue;
         Session *session = allocate(1, sizeof *session);
         session->stage = stage_open(lesson, &lesson->scenes[i], options);
         session->choice = choice;

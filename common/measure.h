@@ -2,6 +2,7 @@
 #ifndef TEXEL_MEASURE_H
 #define TEXEL_MEASURE_H
 
+#include "only.h"
 #include "stage.h"
 #include "table.h"
 
@@ -10,6 +11,7 @@ typedef struct {
     const char *scene, *technique, *view;
     double knob;
     int width, height;
+    const Only *only;   /* of the table's rows */
     const View *custom; /* a camera from the command line, instead of the scenes' own views */
 } Choice;
 

@@ -24,6 +24,7 @@ static double unit(uint64_t bits) { return (double)(bits >> 11) * 0x1p-53; }
 typedef struct {
     const Truth *truth;
     const Camera *camera;
+    Rays rays; /* of the camera */
     PixelFilter filter;
     int width, height, strata; /* strata x strata samples in each of two halves of a pixel */
     Image *image;
@@ -47,16 +48,18 @@ static Vec3 half_of_pixel(const Integral *job, int x, int y, int half) {
         double dy = (i / job->strata + unit(second)) * step - reach, r2 = dx * dx + dy * dy;
         if (job->filter == FILTER_GAUSSIAN && r2 > 1.0) continue;
         double weight = job->filter == FILTER_BOX ? 1.0 : exp(-2.0 * r2);
-        Ray ray = camera_ray(job->camera, job->width, job->height, x + 0.5 + dx, y + 0.5 + dy);
+        Ray ray = rays_at(&job->rays, x + 0.5 + dx, y + 0.5 + dy);
         sum = vec3_add(sum, vec3_scale(colour_along(job->truth, ray), weight));
         weights += weight;
     }
     return vec3_scale(sum, 1.0 / weights);
 }
 
+static bool stopped(const Truth *truth) { return truth->stop && atomic_load(truth->stop); }
+
 static void render_row(void *context, int y) {
     Integral *job = context;
-    for (int x = 0; x < job->width; x++) {
+    for (int x = 0; x < job->width && !stopped(job->truth); x++) {
         Vec3 first = half_of_pixel(job, x, y, 0), second = half_of_pixel(job, x, y, 1);
         Vec3 both = vec3_mix(first, second, 0.5), change = vec3_sub(both, first);
         float *pixel = image_at(job->image, x, y);
@@ -128,7 +131,8 @@ Exact truth_render(const Truth *truth, const Camera *camera, int width, int heig
     Exact exact = {.image = image_create(width, height, 3)};
     int strata = (int)fmax(1.0, round(sqrt(samples / 2.0)));
     if (filter == FILTER_GAUSSIAN) strata *= 2; /* its support is four pixels large */
-    Integral job = {truth, camera, filter, width, height, strata, &exact.image, NULL};
+    Integral job = {truth,        camera, camera_rays(camera, width, height), filter, width, height, strata,
+                    &exact.image, NULL};
     char *path = truth->key ? cache_path(&job) : NULL;
     if (!path || !cache_load(path, &exact)) {
         job.row_change = allocate((size_t)height, sizeof(double));
@@ -137,7 +141,7 @@ Exact truth_render(const Truth *truth, const Camera *camera, int width, int heig
         for (int y = 0; y < height; y++) sum += job.row_change[y];
         exact.rmse = sqrt(sum / (3.0 * width * height));
         free(job.row_change);
-        if (path) cache_save(truth->cache, path, &exact);
+        if (path && !stopped(truth)) cache_save(truth->cache, path, &exact);
     }
     free(path);
     return exact;
@@ -147,20 +151,21 @@ Exact truth_render(const Truth *truth, const Camera *camera, int width, int heig
 
 typedef struct {
     const Truth *truth;
-    const Camera *camera;
+    Rays rays;
     int width, height;
     Sample *samples;
 } Centres;
 
 static void centres_row(void *context, int y) {
     const Centres *job = context;
-    for (int x = 0; x < job->width; x++)
-        job->samples[(size_t)y * job->width + x] = job->truth->sample(
-            job->truth->scene, camera_ray(job->camera, job->width, job->height, x + 0.5, y + 0.5));
+    for (int x = 0; x < job->width && !stopped(job->truth); x++)
+        job->samples[(size_t)y * job->width + x] =
+            job->truth->sample(job->truth->scene, rays_at(&job->rays, x + 0.5, y + 0.5));
 }
 
 Sample *truth_centres(const Truth *truth, const Camera *camera, int width, int height) {
-    Centres job = {truth, camera, width, height, allocate((size_t)width * height, sizeof(Sample))};
+    Centres job = {truth, camera_rays(camera, width, height), width, height,
+                   allocate((size_t)width * height, sizeof(Sample))};
     parallel_for(height, centres_row, &job);
     return job.samples;
 }

@@ -6,6 +6,7 @@
 #include "camera.h"
 #include "image.h"
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 /* What one ray meets. Colours are linear light; depth is the distance from the ray's origin. Where nothing is
@@ -22,7 +23,8 @@ typedef struct {
     const void *scene;
     Vec3 background;
     uint64_t key; /* names all that sample depends on: with it exact pictures are kept in cache; 0: never */
-    const char *cache; /* a folder */
+    const char *cache;       /* a folder */
+    const atomic_bool *stop; /* or NULL: once true, what is being made ends soon and is good for nothing */
 } Truth;
 
 /* The filter of a pixel: the mean over its square, or exp(-2 r^2) out to a radius of one pixel. */
