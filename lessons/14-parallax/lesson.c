@@ -98,7 +98,7 @@ static const Lesson lesson = {
                    AT_ANGLE("30", 0.5, 0.86602540378443871, -0.3535, 1.2248),
                    AT_ANGLE("60", 0.86602540378443871, 0.5, -0.6294, 0.7412),
                    AT_ANGLE("75", 0.96592582628906831, 0.25881904510252074, -0.75, 0.5),
-                   AT_ANGLE("85", 0.99619469809174555, 0.087155742747658174, -0.8214, 0.3573)},
+                   AT_ANGLE("85", 0.99619469809174555, 0.087155742747658174, -0.765, 0.47)},
          .colour = "uv-grid.png", .facts = {CYLINDER_FACTS}, .load = prism_load_sides,
          .measure = prism_measure_sides, ROUND},
         {"stereo", "a photographed scene's relief from its measured disparity, seen by two eyes",
