@@ -5,11 +5,13 @@
 #include "fail.h"
 
 #include <cglm/cglm.h>
+#include <dirent.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -87,7 +89,7 @@ Stage stage_open(const Lesson *lesson, const Scene *scene, const Options *option
     stage.common = project_path("common");
     stage.cache = project_path("build/truth");
     stage.data = scene->load(&stage.options);
-    stage.truth = (Truth){scene->truth, stage.data, scene->background, truth_key(&stage), stage.cache};
+    stage.truth = (Truth){scene->truth, stage.data, scene->background, truth_key(&stage), stage.cache, NULL};
     return stage;
 }
 
@@ -133,13 +135,39 @@ static Program *program_of(Stage *stage, const Technique *technique) {
 }
 
 char *stage_reload(Stage *stage) {
+    char *first = NULL;
     for (int i = 0; i < technique_count(stage->scene); i++) {
         const Technique *technique = &stage->scene->techniques[i];
         char *log = technique->fragment ? build(stage, technique, &stage->programs[i]) : NULL;
-        if (log) return log;
+        if (first)
+            free(log);
+        else
+            first = log;
     }
-    return NULL;
+    return first;
 }
+
+static uint64_t folder_stamp(const char *folder) {
+    static const char *const endings[] = {".vert", ".frag", ".glsl", ".inc"};
+    uint64_t stamp = 0;
+    DIR *listing = opendir(folder);
+    for (struct dirent *entry; listing && (entry = readdir(listing));) {
+        const char *ending = strrchr(entry->d_name, '.');
+        struct stat status;
+        bool shader = false;
+        for (int i = 0; ending && i < 4; i++) shader = shader || strcmp(ending, endings[i]) == 0;
+        if (!shader || fstatat(dirfd(listing), entry->d_name, &status, 0) != 0) continue;
+        uint64_t hash = 0xcbf29ce484222325u;
+        hash_bytes(&hash, entry->d_name, strlen(entry->d_name));
+        hash_bytes(&hash, &status.st_mtim, sizeof status.st_mtim);
+        hash_bytes(&hash, &status.st_size, sizeof status.st_size);
+        stamp += hash; /* a sum, for a folder's order may change */
+    }
+    if (listing) closedir(listing);
+    return stamp;
+}
+
+uint64_t stage_stamp(const Stage *stage) { return folder_stamp(stage->folder) + folder_stamp(stage->common); }
 
 static const Target *target_of(Target *target, int width, int height, bool lookup) {
     if (target->framebuffer && (target->width != width || target->height != height)) target_destroy(target);

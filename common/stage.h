@@ -40,7 +40,10 @@ typedef struct {
 Cost stage_time(Stage *stage, const Frame *frame, Picture *scratch);
 
 /* Builds all programs anew from their files. NULL, or the log of the first that failed, which the caller
- * frees; the last good ones stay in use. */
+ * frees; of those that failed the last good ones stay in use. */
 char *stage_reload(Stage *stage);
+
+/* A number that changes when a shader's file does, or comes, or goes. */
+uint64_t stage_stamp(const Stage *stage);
 
 #endif
