@@ -84,7 +84,8 @@ typedef struct Table Table;
 void table_add(Table *table, const Shots *shots, const View *view, const char *metric, double value,
                const char *unit);
 
-/* Adds a point to a curve that the report plots, a line for each technique, knob and view: y against x. */
+/* Adds a point to a curve that the report plots, a line for each technique, knob and view: y against x. The
+ * names may hold no comma. */
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y);
 

@@ -65,6 +65,8 @@ void table_add(Table *table, const Shots *shots, const View *view, const char *m
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y) {
     (void)shots;
+    if (strpbrk(curve, ",\"\n") || strpbrk(x_name, ",\"\n") || strpbrk(y_name, ",\"\n"))
+        fail("the curve %s of %s: a name in a table may hold no comma", curve, table->lesson);
     require_finite(table, curve, x);
     require_finite(table, curve, y);
     table->point_count++;

@@ -233,8 +233,8 @@ static void add_iterations(const Shots *shots, const Shot *shot, double error, d
     if (!plain && !one && strcmp(name, "iterated")) return;
     double done = plain ? 0 : one ? 1 : frame->knob;
     table_set(table, frame->scene->name, "iterated", 0); /* one line through all of them */
-    table_point(table, shots, shot->view, "iteration", "iterations", done, "uv error, rms (texels)", error);
-    table_point(table, shots, shot->view, "next-step", "iterations", done, "next step, rms (texels)", step);
+    table_point(table, shots, shot->view, "iteration", "iterations", done, "rms uv error (texels)", error);
+    table_point(table, shots, shot->view, "next-step", "iterations", done, "rms next step (texels)", step);
     table_set(table, frame->scene->name, name, frame->knob);
 }
 
