@@ -29,9 +29,9 @@ chomp(my $here = `pwd`);
 symlink "$here/build/assets", "$root/build/assets" or die;
 
 # ---- Tools ----
-sub wait_for { # up to five seconds for what the function says
+sub wait_for { # up to fifteen seconds for what the function says
     my ($function) = @_;
-    for (my $end = time + 5; time < $end; sleep 0.02) {
+    for (my $end = time + 15; time < $end; sleep 0.02) {
         my $result = $function->();
         return $result if $result;
     }
@@ -96,7 +96,7 @@ my $pipe = fileno $number_in;
 $display = background('/dev/null', "$root/xvfb", 'Xvfb', '-displayfd', $pipe, '-screen', 0, '1024x768x24',
     '-nolisten', 'tcp');
 close $number_in;
-my $said = IO::Select->new($number)->can_read(10) ? <$number> : undef;
+my $said = IO::Select->new($number)->can_read(15) ? <$number> : undef;
 BAIL_OUT('no display: ' . content("$root/xvfb")) if !$said;
 chomp $said;
 $ENV{DISPLAY} = ":$said";
@@ -104,7 +104,7 @@ $ENV{DISPLAY} = ":$said";
 my @choice = qw(--scene brick --view 60 --technique per-pixel --size 320x240);
 $window = background("$root/out", "$root/error", $lesson, @choice);
 system("$lesson @choice --render $root/offscreen 2>>$root/progress") == 0 or die;
-system(qw(xdotool search --sync --onlyvisible --name 14-parallax mousemove 160 120)) == 0 or die;
+system(qw(timeout 15 xdotool search --sync --onlyvisible --name 14-parallax mousemove 160 120)) == 0 or die;
 
 my $first = 'brick-60-per-pixel';
 saves($first);
