@@ -50,7 +50,8 @@ static ClipVertex seen_point(const void *context, double s, double t) {
 static Joint joint_of(const Frame *frame, const Camera *camera) {
     const Surface *surface = frame->data;
     Seen seen = {surface, camera, frame->width, frame->height};
-    return joint_create(surface->left, surface->right, frame->technique->variant == MENDED, seen_point, &seen);
+    return joint_create(surface->left, surface->right, frame->technique->variant == MENDED, seen_point,
+                        &seen);
 }
 
 static int dropped_bits(const Frame *frame) {
@@ -59,13 +60,20 @@ static int dropped_bits(const Frame *frame) {
 
 void cracks_paint(const Frame *frame, Picture *picture) {
     const Surface *surface = frame->data;
-    double eye_y = tan(radians(frame->camera.fov_y_degrees) / 2), eye_x = eye_y * frame->width / frame->height;
+    double eye_y = tan(radians(frame->camera.fov_y_degrees) / 2),
+           eye_x = eye_y * frame->width / frame->height;
     size_t pixels = (size_t)frame->width * frame->height;
     uint16_t *drawn = allocate(pixels, sizeof *drawn);
-    Raster raster = {.width = frame->width, .height = frame->height, .texture = &surface->image,
-                     .filling = FILL_PERSPECTIVE, .dropped_bits = dropped_bits(frame),
-                     .colour = &picture->colour, .lookup = picture->lookup.pixels ? &picture->lookup : NULL,
-                     .eye_x = eye_x, .eye_y = eye_y, .drawn = drawn};
+    Raster raster = {.width = frame->width,
+                     .height = frame->height,
+                     .texture = &surface->image,
+                     .filling = FILL_PERSPECTIVE,
+                     .dropped_bits = dropped_bits(frame),
+                     .colour = &picture->colour,
+                     .lookup = picture->lookup.pixels ? &picture->lookup : NULL,
+                     .eye_x = eye_x,
+                     .eye_y = eye_y,
+                     .drawn = drawn};
     Joint joint = joint_of(frame, &frame->camera);
     joint_draw(&raster, &joint);
     joint_destroy(&joint);

@@ -1,4 +1,5 @@
-/* The scenes joints and levels: two halves of one surface, split differently, and the joint where they meet. */
+/* The scenes joints and levels: two halves of one surface, split differently, and the joint where they meet.
+ */
 #ifndef LESSON_CRACKS_H
 #define LESSON_CRACKS_H
 
@@ -9,8 +10,8 @@
 #define JOINTS 5, 7
 
 /* levels: part of a cylinder of radius 1 around the y axis, ARC_DEGREES of it around +z, y in -1/2..1/2. s
- * grows with the angle from +z toward +x, t with y, 0..1 each. Below the joint at y = 0 are 8 flat faces (in 8
- * rows), above it 4 (in 4). */
+ * grows with the angle from +z toward +x, t with y, 0..1 each. Below the joint at y = 0 are 8 flat faces (in
+ * 8 rows), above it 4 (in 4). */
 #define LEVELS 8, 4
 #define ARC_DEGREES 80.0
 

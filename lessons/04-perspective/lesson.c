@@ -1,11 +1,11 @@
 /* Interpolation across a polygon: between its corners, what is linear, and where?
  *
- * What to look for: in the scene quad, go from the view 0 to 80. Seen from the front, `affine` is right; tilted,
- * the wall breaks along the diagonal of its two triangles, for s and t are linear on the wall but not on the
- * screen. `subdivided` breaks it into many small errors, `spans` into bulges that `perspective` has not. And
- * `colour` shows what is left of a texture that is looked up at the corners alone. On the floor, which goes on
- * under the eye and behind it, walk with the same techniques. Then the joints: bright pixels that no triangle
- * draws, and blue ones that two draw. */
+ * What to look for: in the scene quad, go from the view 0 to 80. Seen from the front, `affine` is right;
+ * tilted, the wall breaks along the diagonal of its two triangles, for s and t are linear on the wall but not
+ * on the screen. `subdivided` breaks it into many small errors, `spans` into bulges that `perspective` has
+ * not. And `colour` shows what is left of a texture that is looked up at the corners alone. On the floor,
+ * which goes on under the eye and behind it, walk with the same techniques. Then the joints: bright pixels
+ * that no triangle draws, and blue ones that two draw. */
 #include "cracks.h"
 #include "raster.h"
 #include "square.h"
@@ -19,11 +19,11 @@
     {name, what, .variant = filling, .paint = square_paint, .knob = {knob_name, {__VA_ARGS__}}}
 
 #define AFFINE PAINTED("affine", "s and t linear on the screen, in two triangles", FILL_AFFINE)
-#define COLOUR \
+#define COLOUR(...) \
     PAINTED_WITH("colour", "the texture read at the vertices, their colours linear on the screen", FILL_COLOUR, \
-                 "splits", 1, 64)
-#define SUBDIVIDED \
-    PAINTED_WITH("subdivided", "affine in splits x splits cells", FILL_AFFINE, "splits", 1, 4, 16, 64)
+                 "splits", __VA_ARGS__)
+#define SUBDIVIDED(...) \
+    PAINTED_WITH("subdivided", "affine in splits x splits cells", FILL_AFFINE, "splits", __VA_ARGS__)
 #define SPANS(...) \
     PAINTED_WITH("spans", "exact every n pixels of a row, linear between", FILL_SPANS, "n", __VA_ARGS__)
 #define PERSPECTIVE PAINTED("perspective", "s/w, t/w and 1/w linear on the screen, and a division", FILL_PERSPECTIVE)
@@ -48,7 +48,8 @@
 
 #define SQUARE .unload = square_unload, .draw = square_draw, .truth = square_truth, .texels = square_texels, \
     .measure = square_measure
-#define FACTS(side, repeats, first) \
+#define FACTS(...) FACTS_OF(__VA_ARGS__)
+#define FACTS_OF(side, repeats, first) \
     .facts = {{"side", side, "world units, of a square around the origin in the plane z = 0"}, \
               {"repeats", repeats, "of the texture along a side"}, \
               {"first", first, "s and t at the corner where x and y are least"}}
@@ -58,29 +59,29 @@ static const Lesson lesson = {
     "interpolation across a polygon: why not the colour, and why not linearly on the screen?",
     {
         {"quad", "a wall, turned away from the eye by up to 80 degrees",
-         .techniques = {AFFINE, COLOUR, SUBDIVIDED, SPANS(4, 16, 64), PERSPECTIVE, OPENGL},
+         .techniques = {AFFINE, COLOUR(1, 64), SUBDIVIDED(1, 4, 16, 64), SPANS(4, 16, 64), PERSPECTIVE, OPENGL},
          .views = {TILTED("0", 0, 1.45), TILTED("45", 0.7778174593052023, 0.77781745930520241),
                    TILTED("70", 0.84572335870731752, 0.30781812899310196),
                    TILTED("80", 0.73860581475915599, 0.13023613325019781)},
          .colour = "brick-256-colour.png", .background = {0.02, 0.02, 0.02}, .samples = 18,
-         .load = square_load_quad, SQUARE, FACTS(1, 1, 0)},
+         .load = square_load_quad, SQUARE, FACTS(QUAD)},
         {"floor", "a floor that passes under the eye and goes on behind it",
-         .techniques = {AFFINE, COLOUR, SUBDIVIDED, SPANS(4, 16, 64), PERSPECTIVE, OPENGL},
+         .techniques = {AFFINE, COLOUR(64), SUBDIVIDED(4, 16, 64), SPANS(16), PERSPECTIVE, OPENGL},
          .views = {STANDING("ahead", 0.3, -1, 0.8, 0, 2, 0.3, 0, 0, 1),
                    STANDING("under", 0.3, -1, 1.6, 0.5, -0.4, 0, 0.5, 0, 1)},
          .colour = "checker.png", .background = {0.25, 0.45, 0.8}, .samples = 18, .load = square_load_floor, SQUARE,
-         FACTS(16, 4, -2)},
+         FACTS(FLOOR)},
         {"horizon", "the same floor, 20,000 repeats wide",
          .techniques = {PERSPECTIVE, SPANS(16), OPENGL},
          .views = {STANDING("far-high", 0, 0, 30, 3, 9, 28, 0, 0, 1),
                    STANDING("far-rolled", 0.3, 0.2, 0.8, 1, 3, 0.3, 0.35, 0, 1)},
          .colour = "checker.png", .background = {0.25, 0.45, 0.8}, .samples = 18, .load = square_load_horizon,
-         SQUARE, FACTS(20000, 20000, -10000)},
+         SQUARE, FACTS(HORIZON)},
         {"joints", "a wall whose halves are split 5 x 5 and 7 x 7; vertices snap to so many places a pixel",
          .techniques = {CRACKS("cracked", "each half by itself", CRACKED, 1, 16, 256),
                         CRACKS("mended", "each half with the other's vertices on the joint", MENDED, 1, 256)},
          .views = {LOOKING("front", 0.6, 0.25, 1, 0, 45)},
-         .colour = "brick-256-colour.png", .background = {0.3, 1, 0.1}, .samples = 18, .load = cracks_load_joints,
+         .colour = "brick-256-colour.png", .background = {0.3, 1, 0.1}, .samples = 8, .load = cracks_load_joints,
          .facts = {{"side", 1, "world units, of a square around the origin in the plane z = 0"},
                    {"joint", 0, "x"}, {"cells_left", 5, "a side"}, {"cells_right", 7, "a side"}},
          .unload = cracks_unload, .truth = cracks_truth, .measure = cracks_measure},
@@ -88,7 +89,7 @@ static const Lesson lesson = {
          .techniques = {CRACKS("cracked", "each level by itself", CRACKED, 256),
                         CRACKS("mended", "the coarse level with the fine one's vertices on the joint", MENDED, 256)},
          .views = {LOOKING("above", 0.3, 1.6, 3, 1, 26), LOOKING("below", 0.3, -1.6, 3, 1, 26)},
-         .colour = "brick-256-colour.png", .background = {0.3, 1, 0.1}, .samples = 18, .load = cracks_load_levels,
+         .colour = "brick-256-colour.png", .background = {0.3, 1, 0.1}, .samples = 8, .load = cracks_load_levels,
          .facts = {{"radius", 1, "world units, around the y axis"}, {"arc", ARC_DEGREES, "degrees around +z"},
                    {"height", 1, "world units, around y = 0"}, {"joint", 0, "y"},
                    {"faces_below", 8, "of chords; and as many rows"}, {"faces_above", 4, "of chords; and as many rows"}},

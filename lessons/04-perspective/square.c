@@ -127,13 +127,15 @@ static Worst compare_lookup(const Frame *frame, const Shot *shot, const Image *l
 }
 
 static const char *const pixels_axis = "pixels from one exact place to the next", *const row_axis = "row",
-                        *const error_axis = "largest error (texels)";
+                         *const error_axis = "largest error (texels)";
 
 /* The largest error, and its bound, against n; a line a view. */
 static void measure_every(const Shots *shots, Table *table, const Shot *shot, float *bound, Image *lookup) {
     const Frame *frame = shots->frame;
     table_set(table, frame->scene->name, frame->technique->name, 0); /* one line through all n */
-    for (int every = 1; every <= 64; every *= 2) {
+    size_t pixels = (size_t)frame->width * frame->height;
+    for (int every = 2; every <= 64; every *= 2) {
+        memset(lookup->pixels, 0, 4 * pixels * sizeof *lookup->pixels);
         rasterize(frame, &shot->view->camera, (Raster){.every = every, .bound = bound, .lookup = lookup});
         Worst worst = compare_lookup(frame, shot, lookup, bound, NULL);
         table_point(table, shots, shot->view, "span-error", pixels_axis, every, error_axis, worst.error);
@@ -167,8 +169,7 @@ void square_measure(const Shots *shots, Table *table) {
         memset(bound, 0, pixels * sizeof *bound);
         memset(rows, 0, (size_t)frame->height * sizeof *rows);
         if (technique->paint)
-            rasterize(frame, &shot->view->camera,
-                      (Raster){.every = knob_every(frame->knob), .bound = bound});
+            rasterize(frame, &shot->view->camera, (Raster){.every = knob_every(frame->knob), .bound = bound});
         Worst worst = compare_lookup(frame, shot, &shot->picture.lookup, bound, rows);
         if (technique->paint) {
             table_add(table, shots, shot->view, "uv_error_bound_texels", worst.bound, "texels");

@@ -28,8 +28,8 @@ Sample square_truth(const void *data, Ray ray);
 Vec2 square_texels(const void *data);
 void square_measure(const Shots *shots, Table *table);
 
-/* Technique callback. The technique's variant is its Filling; its knob, if any, is the number of splits a side
- * (FILL_COLOUR, FILL_AFFINE) or of pixels from one exact place to the next (FILL_SPANS). */
+/* Technique callback. The technique's variant is its Filling; its knob, if any, is the number of splits a
+ * side (FILL_COLOUR, FILL_AFFINE) or of pixels from one exact place to the next (FILL_SPANS). */
 void square_paint(const Frame *frame, Picture *picture);
 
 #endif
