@@ -12,7 +12,7 @@
 /* ---- The techniques: a fragment shader each, of their own name ---- */
 
 /* clang-format off */
-#define SHADED(name, what) name, what, "surface.vert", name ".frag"
+#define SHADED(id, says) .name = id, .what = says, .vertex = "surface.vert", .fragment = id ".frag"
 
 #define PLAIN {SHADED("plain", "the texture as it lies on the polygon")}
 #define TWO_FETCHES {SHADED("two-fetches", "reads the same two textures unshifted: what any shift must cost")}
@@ -65,7 +65,7 @@
     .background = {0.02, 0.02, 0.02}, .samples = 8
 #define CYLINDER_FACTS \
     {"radius", 1, "world units, around the y axis"}, {"height", CYLINDER_HEIGHT, "world units, around y = 0"}, \
-    {"v_over_height", 0.5, "v from the bottom to the top; u is 0.5 toward +z and grows toward +x"}
+    {"v_at_the_top", 0.5, "v is 0 at the bottom; u is 0.5 toward +z and grows toward +x, over 0..1 around"}
 /* clang-format on */
 
 static const Lesson lesson = {
