@@ -12,7 +12,7 @@ use File::Path qw(make_path);
 
 my $size   = '320x240';
 my $folder = 'build/tests/pictures';
-my $golden = 'tests/golden'; # LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png
+my $golden = 'tests/golden'; # LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png; the technique may be truth
 my %golden_limit = (max => 4, mean => 0.1); # of 255, OSMesa against OSMesa
 
 sub rows { # of a CSV file with a header, as hashes; its fields hold no commas
@@ -68,8 +68,9 @@ sub check_golden {
     my ($path) = @_;
     my ($lesson, $scene, $view, $technique, $knob) = $path =~ m{/([^./]+)\.([^.]+)\.([^.]+)\.([^.]+?)(?:\.([0-9.]+))?\.png$}
         or return fail("$path: a golden picture is LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png");
-    my @command = ("build/$lesson", '--render', $folder, '--size', $size, '--scene', $scene, '--view', $view,
-        '--technique', $technique, defined $knob ? ('--knob', $knob) : ());
+    my @command = ("build/$lesson", '--size', $size, '--scene', $scene, '--view', $view,
+        $technique eq 'truth' ? ('--truth', $folder) : ('--render', $folder, '--technique', $technique),
+        defined $knob ? ('--knob', $knob) : ());
     return fail("$path: cannot be drawn") if system("@command 2>/dev/null");
     my $picture = "$folder/" . join('-', $scene, $view, $technique, $knob // ()) . '.png';
     my ($max, $mean) = split ' ', `build/tests/png_difference $picture $path`;
