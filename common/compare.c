@@ -19,8 +19,6 @@ typedef struct {
     const Image *test, *reference;
     int channels;
     Row *rows;
-    Image shown[2]; /* the test's and the reference's colours as an 8-bit sRGB file keeps them */
-    float byte_to_linear[256];
 } Comparison;
 
 /* The same function as srgb_encode, in floats: twice as fast, and 1e-7 does not show in decibels. */
@@ -35,7 +33,6 @@ static void compare_row(void *context, int y) {
     Row row = {0};
     for (int x = 0; x < c->test->width; x++) {
         const float *test = image_at(c->test, x, y), *reference = image_at(c->reference, x, y);
-        float *shown_test = image_at(&c->shown[0], x, y), *shown_reference = image_at(&c->shown[1], x, y);
         for (int i = 0; i < c->channels; i++) {
             if (!row.bad && !(isfinite(test[i]) && isfinite(reference[i]))) {
                 row.bad = isfinite(test[i]) ? c->reference : c->test;
@@ -46,8 +43,6 @@ static void compare_row(void *context, int y) {
             row.square += error * error;
             row.encoded_square += encoded_error * encoded_error;
             row.max_abs = fmax(row.max_abs, fabs(error));
-            shown_test[i] = c->byte_to_linear[srgb_byte(test[i])];
-            shown_reference[i] = c->byte_to_linear[srgb_byte(reference[i])];
         }
     }
     c->rows[y] = row;
@@ -75,7 +70,8 @@ static const char *sum_rows(const Comparison *c, Difference *difference) {
     return NULL;
 }
 
-const char *compare(const Image *test, const Image *reference, Difference *difference, Image *map) {
+const char *compare_seen(const Image *test, const Image *reference, const Seen *seen, Difference *difference,
+                         Image *map) {
     static _Thread_local char reason[96];
     if (test->width != reference->width || test->height != reference->height) {
         snprintf(reason, sizeof reason, "another size: %dx%d pixels against the reference's %dx%d",
@@ -91,15 +87,29 @@ const char *compare(const Image *test, const Image *reference, Difference *diffe
 
     Comparison c = {.test = test, .reference = reference, .channels = channels};
     c.rows = allocate(test->height, sizeof *c.rows);
-    for (int i = 0; i < 2; i++) c.shown[i] = image_create(test->width, test->height, channels);
-    for (int i = 0; i < 256; i++) c.byte_to_linear[i] = (float)srgb_decode(i / 255.0);
     parallel_for(test->height, compare_row, &c);
     Difference result = {0};
     const char *refused = sum_rows(&c, &result);
-    if (!refused && map) result.flip = flip(&c.shown[0], &c.shown[1], map);
+    if (!refused && map) {
+        Seen seen_test = seen_create(test);
+        result.flip = flip(&seen_test, seen, map);
+        seen_destroy(&seen_test);
+    }
     if (!refused) *difference = result;
-    for (int i = 0; i < 2; i++) image_destroy(&c.shown[i]);
     free(c.rows);
+    return refused;
+}
+
+const char *compare(const Image *test, const Image *reference, Difference *difference, Image *map) {
+    Difference result;
+    const char *refused =
+        compare_seen(test, reference, NULL, &result, NULL); /* before anything is looked at */
+    if (!refused && map) {
+        Seen seen = seen_create(reference);
+        refused = compare_seen(test, reference, &seen, &result, map);
+        seen_destroy(&seen);
+    }
+    if (!refused) *difference = result;
     return refused;
 }
 

@@ -11,6 +11,17 @@ typedef struct {
     double max_abs; /* the largest difference of a channel, linear light, unclipped */
 } Difference;
 
+/* What an eye sees of an image (linear light, finite; seen as an 8-bit sRGB file keeps it), by FLIP's model:
+ * two thirds of FLIP's time, so a reference for many pictures is looked at once. seen_destroy frees it. */
+typedef struct SeenPixel SeenPixel;
+typedef struct {
+    int width, height;
+    SeenPixel *pixels;
+} Seen;
+
+Seen seen_create(const Image *image);
+void seen_destroy(Seen *seen);
+
 /* Compares the first three channels (or the one) of two linear images. NULL when they can be compared, else
  * the reason with its place: another size, another number of channels (1 against 3; a fourth is ignored), a
  * value that is not finite. The reason is valid until the next call. map, if not NULL, is made: one channel
@@ -18,12 +29,15 @@ typedef struct {
  * out. */
 const char *compare(const Image *test, const Image *reference, Difference *difference, Image *map);
 
+/* The same with the reference already looked at; seen is NULL where no map is asked for. */
+const char *compare_seen(const Image *test, const Image *reference, const Seen *seen, Difference *difference,
+                         Image *map);
+
 /* The FLIP map's errors 0..1 as colours to look at (black, violet, orange, white), linear light, three
  * channels; the caller destroys it. */
 Image compare_heat(const Image *map);
 
-/* LDR-FLIP (Andersson et al. 2020) of two images of 8-bit sRGB values given as linear light, already of one
- * size and finite. map has one channel and their size. Returns the mean of the map. */
-double flip(const Image *test, const Image *reference, Image *map);
+/* LDR-FLIP (Andersson et al. 2020) of two that have one size. map is made: one channel. Returns its mean. */
+double flip(const Seen *test, const Seen *reference, Image *map);
 
 #endif

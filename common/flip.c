@@ -68,24 +68,22 @@ static Filter sensitivity_make(double b) {
 /* Edges and points of the width that the eye finds best, in degrees. */
 static const double FEATURE_WIDTH = 0.082;
 
-/* The planes that the row pass makes of each image, and the column pass reads. */
+/* The planes that the row pass makes of an image, and the column pass reads. */
 enum { LIGHT, RED_GREEN, BLUE_YELLOW_1, BLUE_YELLOW_2, ROW_SMOOTH, ROW_EDGE, ROW_POINT, PLANES };
 
 typedef struct {
-    const Image *images[2];
-    Image *map;
+    const Image *image;
+    Seen *seen; /* what is made */
     int width, height;
-    size_t stride;    /* floats a row of a plane: the width, rounded up to a multiple of BLOCK */
-    float *planes;    /* [2 images][PLANES][height][stride] */
-    double *row_sums; /* of the errors, one a row */
+    size_t stride; /* floats a row of a plane: the width, rounded up to a multiple of BLOCK */
+    float *planes; /* [PLANES][height][stride] */
     Filter light, red_green, blue_yellow[2], smooth, edge, point;
-    float share[2];      /* of the two Gaussians in blue-yellow */
-    float rgb_of_xyz[9]; /* the inverse of XYZ_OF_RGB */
-    float largest;       /* colour distance (to the power QC) that a screen can show: of green and blue */
-} Flip;
+    float share[2];            /* of the two Gaussians in blue-yellow */
+    float byte_to_linear[256]; /* the image is seen as an 8-bit sRGB file keeps it */
+} Eye;
 
-static float *plane_row(const Flip *f, int image, int plane, int y) {
-    return f->planes + (((size_t)image * PLANES + plane) * f->height + y) * f->stride;
+static float *plane_row(const Eye *f, int plane, int y) {
+    return f->planes + ((size_t)plane * f->height + y) * f->stride;
 }
 
 /* out[x] = sum over i of filter.weights[i] * rows[i][x]. In blocks of a fixed size, whose sums stay in
@@ -104,18 +102,18 @@ static void weighted_sum(const Filter *filter, const float *const *rows, float *
 }
 
 /* Along a row that begins RADIUS_MAX after `padded`. */
-static void filter_row(const Flip *f, const Filter *filter, const float *padded, float *out) {
+static void filter_row(const Eye *f, const Filter *filter, const float *padded, float *out) {
     const float *rows[TAPS_MAX];
     for (int i = 0; i <= 2 * filter->radius; i++) rows[i] = padded + RADIUS_MAX - filter->radius + i;
     weighted_sum(filter, rows, out, f->stride);
 }
 
 /* Across the rows of a plane around row y; beyond the edge the last row is repeated, as the authors do. */
-static void filter_column(const Flip *f, const Filter *filter, int image, int plane, int y, float *out) {
+static void filter_column(const Eye *f, const Filter *filter, int plane, int y, float *out) {
     const float *rows[TAPS_MAX];
     for (int i = 0; i <= 2 * filter->radius; i++) {
         int row = y - filter->radius + i;
-        rows[i] = plane_row(f, image, plane, row < 0 ? 0 : row < f->height ? row : f->height - 1);
+        rows[i] = plane_row(f, plane, row < 0 ? 0 : row < f->height ? row : f->height - 1);
     }
     weighted_sum(filter, rows, out, f->stride);
 }
@@ -132,6 +130,12 @@ static const float XYZ_OF_RGB[9] = {
 typedef struct {
     float x, y, z;
 } Colour;
+
+/* What the eye sees at a pixel: a colour in Lab, and how much of an edge and of a point. */
+struct SeenPixel {
+    Colour colour;
+    float edge, point;
+};
 
 static Colour transform(const float m[9], Colour c) {
     return (Colour){m[0] * c.x + m[1] * c.y + m[2] * c.z, m[3] * c.x + m[4] * c.y + m[5] * c.z,
@@ -180,10 +184,9 @@ static float colour_error(float distance, float largest) {
 /* Linear RGB to opponent colours, y, x - y and y - z of XYZ over white, and all filters along the row. (The
  * paper's YCxCz is 116 y - 16, 500 (x - y), 200 (y - z). Blurring does not mind factors and offsets, and the
  * features are those of (Y + 16) / 116 = y: so we do without.) */
-static void row_pass(void *context, int index) {
-    const Flip *f = context;
-    int image = index / f->height, row = index % f->height;
-    const Image *source = f->images[image];
+static void row_pass(void *context, int row) {
+    const Eye *f = context;
+    const Image *source = f->image;
     size_t length = f->stride + 2 * RADIUS_MAX;
     float *light = allocate(3 * length, sizeof *light), *red_green = light + length;
     float *blue_yellow = red_green + length;
@@ -191,75 +194,68 @@ static void row_pass(void *context, int index) {
         int x = (int)i - RADIUS_MAX; /* beyond the edge its pixel is repeated */
         const float *p = image_at(source, x < 0 ? 0 : x < f->width ? x : f->width - 1, row);
         int grey = source->channels < 3;
-        Colour xyz = transform(XYZ_OF_RGB, (Colour){p[0], p[grey ? 0 : 1], p[grey ? 0 : 2]});
+        float rgb[3];
+        for (int c = 0; c < 3; c++) rgb[c] = f->byte_to_linear[srgb_byte(p[grey ? 0 : c])];
+        Colour xyz = transform(XYZ_OF_RGB, (Colour){rgb[0], rgb[1], rgb[2]});
         light[i] = xyz.y;
         red_green[i] = xyz.x - xyz.y;
         blue_yellow[i] = xyz.y - xyz.z;
     }
-    filter_row(f, &f->light, light, plane_row(f, image, LIGHT, row));
-    filter_row(f, &f->red_green, red_green, plane_row(f, image, RED_GREEN, row));
-    filter_row(f, &f->blue_yellow[0], blue_yellow, plane_row(f, image, BLUE_YELLOW_1, row));
-    filter_row(f, &f->blue_yellow[1], blue_yellow, plane_row(f, image, BLUE_YELLOW_2, row));
-    filter_row(f, &f->smooth, light, plane_row(f, image, ROW_SMOOTH, row));
-    filter_row(f, &f->edge, light, plane_row(f, image, ROW_EDGE, row));
-    filter_row(f, &f->point, light, plane_row(f, image, ROW_POINT, row));
+    filter_row(f, &f->light, light, plane_row(f, LIGHT, row));
+    filter_row(f, &f->red_green, red_green, plane_row(f, RED_GREEN, row));
+    filter_row(f, &f->blue_yellow[0], blue_yellow, plane_row(f, BLUE_YELLOW_1, row));
+    filter_row(f, &f->blue_yellow[1], blue_yellow, plane_row(f, BLUE_YELLOW_2, row));
+    filter_row(f, &f->smooth, light, plane_row(f, ROW_SMOOTH, row));
+    filter_row(f, &f->edge, light, plane_row(f, ROW_EDGE, row));
+    filter_row(f, &f->point, light, plane_row(f, ROW_POINT, row));
     free(light);
 }
 
-/* What the column pass finds at each pixel of one row of one image. */
+/* What the column pass finds at each pixel of a row. */
 enum { SEEN_LIGHT, SEEN_RED_GREEN, SEEN_BY_1, SEEN_BY_2, EDGE_X, EDGE_Y, POINT_X, POINT_Y, FOUND };
 
-static Colour seen_colour(const Flip *f, const float *found, size_t x) {
+static Colour seen_colour(const Eye *f, const float *found, const float rgb_of_xyz[9], size_t x) {
     float y = found[SEEN_LIGHT * f->stride + x];
     float blue_yellow =
         f->share[0] * found[SEEN_BY_1 * f->stride + x] + f->share[1] * found[SEEN_BY_2 * f->stride + x];
     Colour rgb =
-        transform(f->rgb_of_xyz, (Colour){y + found[SEEN_RED_GREEN * f->stride + x], y, y - blue_yellow});
+        transform(rgb_of_xyz, (Colour){y + found[SEEN_RED_GREEN * f->stride + x], y, y - blue_yellow});
     rgb = (Colour){fminf(fmaxf(rgb.x, 0), 1), fminf(fmaxf(rgb.y, 0), 1), fminf(fmaxf(rgb.z, 0), 1)};
     return lab_hunt(transform(XYZ_OF_RGB, rgb));
 }
 
-static float length_of(const Flip *f, const float *found, int along_x, int along_y, size_t x) {
+static float length_of(const Eye *f, const float *found, int along_x, int along_y, size_t x) {
     float a = found[along_x * f->stride + x], b = found[along_y * f->stride + x];
     return sqrtf(a * a + b * b);
 }
 
 static void column_pass(void *context, int row) {
-    const Flip *f = context;
-    float *found[2];
-    for (int i = 0; i < 2; i++) {
-        float *out = found[i] = allocate(FOUND * f->stride, sizeof *out);
-        filter_column(f, &f->light, i, LIGHT, row, out + SEEN_LIGHT * f->stride);
-        filter_column(f, &f->red_green, i, RED_GREEN, row, out + SEEN_RED_GREEN * f->stride);
-        filter_column(f, &f->blue_yellow[0], i, BLUE_YELLOW_1, row, out + SEEN_BY_1 * f->stride);
-        filter_column(f, &f->blue_yellow[1], i, BLUE_YELLOW_2, row, out + SEEN_BY_2 * f->stride);
-        filter_column(f, &f->smooth, i, ROW_EDGE, row, out + EDGE_X * f->stride);
-        filter_column(f, &f->edge, i, ROW_SMOOTH, row, out + EDGE_Y * f->stride);
-        filter_column(f, &f->smooth, i, ROW_POINT, row, out + POINT_X * f->stride);
-        filter_column(f, &f->point, i, ROW_SMOOTH, row, out + POINT_Y * f->stride);
-    }
-    double sum = 0;
-    for (int x = 0; x < f->width; x++) {
-        float distance = colour_distance(seen_colour(f, found[0], x), seen_colour(f, found[1], x));
-        float edge =
-            fabsf(length_of(f, found[0], EDGE_X, EDGE_Y, x) - length_of(f, found[1], EDGE_X, EDGE_Y, x));
-        float point =
-            fabsf(length_of(f, found[0], POINT_X, POINT_Y, x) - length_of(f, found[1], POINT_X, POINT_Y, x));
-        float feature = powf(fmaxf(edge, point) / sqrtf(2), QF);
-        float error = powf(colour_error(distance, f->largest), 1 - feature);
-        image_at(f->map, x, row)[0] = error;
-        sum += error;
-    }
-    f->row_sums[row] = sum;
-    for (int i = 0; i < 2; i++) free(found[i]);
+    const Eye *f = context;
+    float rgb_of_xyz[9], *found = allocate(FOUND * f->stride, sizeof *found);
+    invert(XYZ_OF_RGB, rgb_of_xyz);
+    filter_column(f, &f->light, LIGHT, row, found + SEEN_LIGHT * f->stride);
+    filter_column(f, &f->red_green, RED_GREEN, row, found + SEEN_RED_GREEN * f->stride);
+    filter_column(f, &f->blue_yellow[0], BLUE_YELLOW_1, row, found + SEEN_BY_1 * f->stride);
+    filter_column(f, &f->blue_yellow[1], BLUE_YELLOW_2, row, found + SEEN_BY_2 * f->stride);
+    filter_column(f, &f->smooth, ROW_EDGE, row, found + EDGE_X * f->stride);
+    filter_column(f, &f->edge, ROW_SMOOTH, row, found + EDGE_Y * f->stride);
+    filter_column(f, &f->smooth, ROW_POINT, row, found + POINT_X * f->stride);
+    filter_column(f, &f->point, ROW_SMOOTH, row, found + POINT_Y * f->stride);
+    for (int x = 0; x < f->width; x++)
+        f->seen->pixels[(size_t)row * f->width + x] =
+            (SeenPixel){.colour = seen_colour(f, found, rgb_of_xyz, x),
+                        .edge = length_of(f, found, EDGE_X, EDGE_Y, x),
+                        .point = length_of(f, found, POINT_X, POINT_Y, x)};
+    free(found);
 }
 
-double flip(const Image *test, const Image *reference, Image *map) {
-    Flip f = {.images = {test, reference}, .map = map, .width = test->width, .height = test->height};
+Seen seen_create(const Image *image) {
+    Seen seen = {image->width, image->height,
+                 allocate((size_t)image->width * image->height, sizeof(SeenPixel))};
+    Eye f = {.image = image, .seen = &seen, .width = image->width, .height = image->height};
     f.stride = ((size_t)f.width + BLOCK - 1) / BLOCK * BLOCK;
-    f.planes = allocate((size_t)2 * PLANES * f.height, f.stride * sizeof *f.planes);
-    f.row_sums = allocate(f.height, sizeof *f.row_sums);
-    *map = image_create(f.width, f.height, 1);
+    f.planes = allocate((size_t)PLANES * f.height, f.stride * sizeof *f.planes);
+    for (int i = 0; i < 256; i++) f.byte_to_linear[i] = (float)srgb_decode(i / 255.0);
 
     f.light = sensitivity_make(LIGHT_B);
     f.red_green = sensitivity_make(RED_GREEN_B);
@@ -276,15 +272,51 @@ double flip(const Image *test, const Image *reference, Image *map) {
     f.smooth = filter_make(SMOOTH, sigma, radius);
     f.edge = filter_make(EDGE, sigma, radius);
     f.point = filter_make(POINT, sigma, radius);
-    invert(XYZ_OF_RGB, f.rgb_of_xyz);
+
+    parallel_for(f.height, row_pass, &f);
+    parallel_for(f.height, column_pass, &f);
+    free(f.planes);
+    return seen;
+}
+
+void seen_destroy(Seen *seen) {
+    free(seen->pixels);
+    *seen = (Seen){0};
+}
+
+/* ---- The difference of what is seen ------------------------------------------------------------------ */
+
+typedef struct {
+    const Seen *test, *reference;
+    Image *map;
+    float largest;    /* colour distance (to the power QC) that a screen can show: of green and blue */
+    double *row_sums; /* of the errors, one a row */
+} Flip;
+
+static void difference_row(void *context, int row) {
+    const Flip *f = context;
+    int width = f->test->width;
+    double sum = 0;
+    for (int x = 0; x < width; x++) {
+        const SeenPixel *a = &f->test->pixels[(size_t)row * width + x];
+        const SeenPixel *b = &f->reference->pixels[(size_t)row * width + x];
+        float feature = powf(fmaxf(fabsf(a->edge - b->edge), fabsf(a->point - b->point)) / sqrtf(2), QF);
+        float error = powf(colour_error(colour_distance(a->colour, b->colour), f->largest), 1 - feature);
+        image_at(f->map, x, row)[0] = error;
+        sum += error;
+    }
+    f->row_sums[row] = sum;
+}
+
+double flip(const Seen *test, const Seen *reference, Image *map) {
+    *map = image_create(test->width, test->height, 1);
+    Flip f = {.test = test, .reference = reference, .map = map};
+    f.row_sums = allocate((size_t)test->height, sizeof *f.row_sums);
     f.largest = colour_distance(lab_hunt(transform(XYZ_OF_RGB, (Colour){0, 1, 0})),
                                 lab_hunt(transform(XYZ_OF_RGB, (Colour){0, 0, 1})));
-
-    parallel_for(2 * f.height, row_pass, &f);
-    parallel_for(f.height, column_pass, &f);
+    parallel_for(test->height, difference_row, &f);
     double sum = 0;
-    for (int y = 0; y < f.height; y++) sum += f.row_sums[y];
-    free(f.planes);
+    for (int y = 0; y < test->height; y++) sum += f.row_sums[y];
     free(f.row_sums);
-    return sum / ((double)f.width * f.height);
+    return sum / ((double)test->width * test->height);
 }

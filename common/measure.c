@@ -17,7 +17,8 @@ typedef struct Reference {
     const View *view;
     const Truth *truth;
     int width, height, samples;
-    Exact exact[2]; /* by PixelFilter; made when first asked for */
+    Exact exact[2]; /* by PixelFilter; made when first asked for, */
+    Seen seen[2];   /* as these are */
     Sample *centres;
     double known_share; /* of the pixels: see hide_unknown */
 } Reference;
@@ -118,6 +119,12 @@ static const Exact *reference_exact(Reference *reference, PixelFilter filter) {
     return exact;
 }
 
+static const Seen *reference_seen(Reference *reference, PixelFilter filter) {
+    Seen *seen = &reference->seen[filter];
+    if (!seen->pixels) *seen = seen_create(&reference_exact(reference, filter)->image);
+    return seen;
+}
+
 const Image *shot_exact(const Shot *shot) { return &reference_exact(shot->reference, FILTER_BOX)->image; }
 
 /* How exact the exact pictures are that were asked for. */
@@ -138,7 +145,10 @@ static void reference_save(const Session *session, Reference *reference) {
 }
 
 static void reference_destroy(Reference *reference) {
-    for (int filter = 0; filter < 2; filter++) image_destroy(&reference->exact[filter].image);
+    for (int filter = 0; filter < 2; filter++) {
+        image_destroy(&reference->exact[filter].image);
+        seen_destroy(&reference->seen[filter]);
+    }
     free(reference->centres);
 }
 
@@ -179,7 +189,9 @@ static void report_difference(Session *session, const Variant *variant, Image *p
     Image map = {0};
     double share = reference->known_share;
     if (share < 1.0) hide_unknown(picture, exact, reference->centres);
-    const char *reason = compare(picture, exact, &difference, errors || wanted[3] ? &map : NULL);
+    bool mapping = errors || wanted[3];
+    const char *reason = compare_seen(picture, exact, mapping ? reference_seen(reference, filter) : NULL,
+                                      &difference, mapping ? &map : NULL);
     if (reason) fail("%s/%s: %s", scene->name, name, reason);
     const double values[] = {difference.rmse / sqrt(share),
                              fmin(100.0, difference.psnr_db + 10.0 * log10(share)), difference.max_abs,
