@@ -1,5 +1,6 @@
 // The mean over the footprint's bounding box.
 #include "floor.inc"
+#include "summed-area.glsl"
 
 uniform sampler2D high, low; // the summed-area table; low is black where it is the naive one
 
