@@ -11,19 +11,18 @@ say = @printf '  %-8s %s\n' $(1) $(2)
 endif
 
 # The project's own flags; CFLAGS, CXXFLAGS and LDFLAGS are the user's and come after them.
-PACKAGES := OpenImageIO glfw3 osmesa cglm
 # (errno and interposition: so that sqrt is one instruction, and a call within the library is a call.)
 TEXEL_FLAGS := -fno-math-errno -fno-semantic-interposition -Wall -Wextra -Wpedantic -O2 -g -fPIC -MMD -MP -Icommon
 TEXEL_CFLAGS := -std=c17 $(TEXEL_FLAGS)
 TEXEL_CXXFLAGS := -std=c++20 $(TEXEL_FLAGS)
-TEXEL_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
+TEXEL_LIBS = $(shell pkg-config --libs glfw3 osmesa) -lm -pthread -ldl
 LINK_TEXEL = -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(B)/libtexel.so $(LESSONS:%=$(B)/%) assets ## build everything
+all: $(LIBRARIES) $(LESSONS:%=$(B)/%) assets ## build everything
 
 help: ## list these commands
 	@grep -hE '^[^#[:space:]].*:.*## ' $(MAKEFILE_LIST) | sed -E 's/^.*: ([a-z-]*)%:/\1NN:/; s/:.*## /\t/' \
@@ -31,7 +30,8 @@ help: ## list these commands
 
 # ---- The library ----
 
-COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c common/*.cpp))
+COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c))
+LIBRARIES := $(B)/libtexel.so $(B)/libtexel-files.so
 
 $(B)/obj/%.c.o: %.c
 	$(call say,CC,$<)
@@ -43,11 +43,15 @@ $(B)/obj/%.cpp.o: %.cpp
 	$(Q)mkdir -p $(@D)
 	$(Q)$(CXX) $(TEXEL_CXXFLAGS) $(CXXFLAGS) -c $< -o $@
 
-# A shared library, so that linking a lesson takes no time; and an archive for tests, which take from it only
-# what they use: a process that loads OpenImageIO spends a quarter of a second on it.
+# A shared library, so that linking a lesson takes no time; image files are in one of their own, loaded when the
+# first is read (common/image_files.h says why). And an archive for tests, which take from it only what they use.
 $(B)/libtexel.so: $(COMMON_OBJECTS)
 	$(call say,LINK,$@)
-	$(Q)$(CXX) -shared $(CXXFLAGS) $(LDFLAGS) $^ $(TEXEL_LIBS) -o $@
+	$(Q)$(CC) -shared $(CFLAGS) $(LDFLAGS) $^ $(TEXEL_LIBS) -Wl,-rpath,'$$ORIGIN' -o $@
+
+$(B)/libtexel-files.so: $(B)/obj/common/image.cpp.o | $(B)/libtexel.so
+	$(call say,LINK,$@)
+	$(Q)$(CXX) -shared $(CXXFLAGS) $(LDFLAGS) $< $(shell pkg-config --libs OpenImageIO) $(LINK_TEXEL) -o $@
 
 $(B)/libtexel.a: $(COMMON_OBJECTS)
 	$(call say,AR,$@)
@@ -58,7 +62,7 @@ $(B)/libtexel.a: $(COMMON_OBJECTS)
 lesson_sources = $(filter-out $(wildcard lessons/$(1)/test_*.c),$(wildcard lessons/$(1)/*.c))
 
 define LESSON_RULES
-$(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(B)/libtexel.so
+$(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(LIBRARIES)
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CC) $$(CFLAGS) $$(LDFLAGS) $$^ $$(LINK_TEXEL) -o $$@
 endef

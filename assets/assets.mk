@@ -10,7 +10,7 @@ ASSETS := $(GENERATED) $(FETCHED) $(STEREO)
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo: $(B)/%: assets/%.c | $(B)/libtexel.so
+$(B)/generate $(B)/stereo: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
 		$(LDFLAGS) -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm

@@ -1,8 +1,10 @@
-/* Images in memory: making them, sampling them, and the sRGB transfer function. Their files: image.cpp. */
-#include "image.h"
+/* Images in memory: making them, sampling them, and the sRGB transfer function. Their files are image.cpp's.
+ */
+#include "image_files.h"
 
 #include "fail.h"
 
+#include <dlfcn.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -80,4 +82,42 @@ void image_sample(const Image *image, double u, double v, double *out) {
         double bottom = a[i] + ((double)b[i] - a[i]) * x.way, top = c[i] + ((double)d[i] - c[i]) * x.way;
         out[i] = bottom + (top - bottom) * y.way;
     }
+}
+
+/* ---- Files ---- */
+
+static const ImageFiles *files;
+
+static void load_files(void) {
+    void *library = dlopen("libtexel-files.so", RTLD_NOW); /* found beside libtexel.so */
+    if (library) files = dlsym(library, "image_files");
+    if (!files) fail("%s", dlerror());
+}
+
+static const ImageFiles *files_loaded(void) {
+    static pthread_once_t loaded = PTHREAD_ONCE_INIT;
+    pthread_once(&loaded, load_files);
+    return files;
+}
+
+const char *image_read(Image *image, const char *path, ImageKind kind) {
+    return files_loaded()->read(image, path, kind);
+}
+
+const char *image_write(const Image *image, const char *path) { return files_loaded()->write(image, path); }
+
+const char *image_write_raw(const Image *image, const char *path, int bits) {
+    return files_loaded()->write_raw(image, path, bits);
+}
+
+Image image_load(const char *path, ImageKind kind) {
+    Image image;
+    const char *refused = image_read(&image, path, kind);
+    if (refused) fail("%s: %s", path, refused);
+    return image;
+}
+
+void image_save(const Image *image, const char *path) {
+    const char *refused = image_write(image, path);
+    if (refused) fail("%s: %s", path, refused);
 }

@@ -1,7 +1,8 @@
-/* Image files by OpenImageIO. The only C++ in common: it stays behind the C interface of image.h. */
+/* Image files by OpenImageIO. The only C++ in common: it stays behind the C interface of image.h, in a
+ * library of its own (see image_files.h). */
 #define _Noreturn [[noreturn]] /* C++ has no word for it that fail.h could share */
 extern "C" {
-#include "image.h"
+#include "image_files.h"
 #include "fail.h"
 }
 
@@ -223,7 +224,7 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     return nullptr;
 }
 
-const char *image_read(Image *image, const char *path, ImageKind kind) {
+static const char *read(Image *image, const char *path, ImageKind kind) {
     try {
         Silence silence;
         return read_or_throw(image, path, kind);
@@ -330,7 +331,7 @@ template <typename Body> static const char *guarded(Body body) {
     }
 }
 
-const char *image_write(const Image *image, const char *path) {
+static const char *write(const Image *image, const char *path) {
     return guarded([&]() -> const char * {
         if (has_ending(path, ".exr"))
             return write_floats(image, path, image->channels,
@@ -345,7 +346,7 @@ const char *image_write(const Image *image, const char *path) {
     });
 }
 
-const char *image_write_raw(const Image *image, const char *path, int bits) {
+static const char *write_raw(const Image *image, const char *path, int bits) {
     return guarded([&]() -> const char * {
         OIIO::TypeDesc type = has_ending(path, ".exr") ? OIIO::TypeDesc::FLOAT
                               : bits == 16             ? OIIO::TypeDesc::UINT16
@@ -366,16 +367,5 @@ const char *image_write_raw(const Image *image, const char *path, int bits) {
     });
 }
 
-/* ---- Or the end of the program ---------------------------------------------------------------------- */
-
-Image image_load(const char *path, ImageKind kind) {
-    Image image;
-    const char *refused = image_read(&image, path, kind);
-    if (refused) fail("%s: %s", path, refused);
-    return image;
-}
-
-void image_save(const Image *image, const char *path) {
-    const char *refused = image_write(image, path);
-    if (refused) fail("%s: %s", path, refused);
-}
+/* What image.c asks this library for. */
+const ImageFiles image_files = {read, write, write_raw};

@@ -62,9 +62,12 @@ static uint64_t truth_key(const Stage *stage) {
     const Options *options = &stage->options;
     hash_file(&hash,
               "/proc/self/exe"); /* the scene's truth is in the program, the shapes are in the library */
-    char *library = project_path("build/libtexel.so");
-    hash_file(&hash, library);
-    free(library);
+    static const char *const libraries[] = {"libtexel.so", "libtexel-files.so"};
+    for (int i = 0; i < 2; i++) {
+        char *library = project_path("build/%s", libraries[i]);
+        hash_file(&hash, library);
+        free(library);
+    }
     hash_bytes(&hash, stage->scene->name, strlen(stage->scene->name));
     hash_bytes(&hash, &options->scale, sizeof options->scale);
     hash_file(&hash, options->colour);

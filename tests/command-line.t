@@ -95,4 +95,8 @@ is($status, 0, 'draws a user\'s own images of different sizes') or diag $said;
 ($status, $said) = run("$lesson --list");
 ok($status == 0 && $said =~ /^scene brick/m && $said =~ /fov_y_degrees/, '--list lists');
 
+# ---- OpenGL is called through the context's own functions alone: a linked one would silently be OSMesa's ----
+my @linked = grep { /\bU gl[A-Z]/ } `nm -D -u build/libtexel.so $lesson`;
+is("@linked", '', 'no OpenGL function is linked by name');
+
 done_testing();

@@ -7,16 +7,17 @@ UNIT_TESTS := $(patsubst tests/%.c,$(TESTS)/%,$(wildcard tests/test_*.c))
 LESSON_TESTS := $(patsubst lessons/%.c,$(TESTS)/%,$(wildcard lessons/*/test_*.c))
 tests_of = $(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)) $(filter $(TESTS)/cases-$(1),$(CASES_TESTS))
 
-link_test = $(CXX) $(CXXFLAGS) $(LDFLAGS) -Wl,--as-needed $(filter %.o,$^) $(B)/libtexel.a -lcmocka $(TEXEL_LIBS) -o $@
+link_test = $(CC) $(CFLAGS) $(LDFLAGS) -Wl,--as-needed $(filter %.o,$^) $(B)/libtexel.a -lcmocka $(TEXEL_LIBS) \
+	-Wl,-rpath,$(abspath $(B)) -o $@
 
-$(UNIT_TESTS) $(TESTS)/png_difference: $(TESTS)/%: $(B)/obj/tests/%.c.o $(B)/libtexel.a
+$(UNIT_TESTS) $(TESTS)/png_difference: $(TESTS)/%: $(B)/obj/tests/%.c.o $(B)/libtexel.a | $(LIBRARIES)
 	$(call say,LINK,$@)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(link_test)
 
 define LESSON_TEST_RULES
 $(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)): $(TESTS)/%: $(B)/obj/lessons/%.c.o \
-	$(patsubst %,$(B)/obj/%.o,$(filter-out %/lesson.c,$(call lesson_sources,$(1)))) $(B)/libtexel.a
+	$(patsubst %,$(B)/obj/%.o,$(filter-out %/lesson.c,$(call lesson_sources,$(1)))) $(B)/libtexel.a | $(LIBRARIES)
 	$$(call say,LINK,$$@)
 	$$(Q)mkdir -p $$(@D)
 	$$(Q)$$(link_test)
