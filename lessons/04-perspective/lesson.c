@@ -27,7 +27,8 @@
 #define SPANS(...) \
     PAINTED_WITH("spans", "exact every n pixels of a row, linear between", FILL_SPANS, "n", __VA_ARGS__)
 #define PERSPECTIVE PAINTED("perspective", "s/w, t/w and 1/w linear on the screen, and a division", FILL_PERSPECTIVE)
-#define OPENGL {"opengl", "OpenGL's own interpolation", "surface.vert", "opengl.frag"}
+#define OPENGL \
+    {.name = "opengl", .what = "OpenGL's own interpolation", .vertex = "surface.vert", .fragment = "opengl.frag"}
 
 #define CRACKS(name, what, kind, ...) \
     {name, what, .variant = kind, .paint = cracks_paint, .knob = {"places", {__VA_ARGS__}}}

@@ -1,4 +1,4 @@
-// OpenGL interpolates s and t with perspective by itself; `noperspective in vec2 uv` would be affine.
+// OpenGL interpolates s and t with perspective by itself.
 in vec3 position;
 in vec2 uv; // s, t
 
