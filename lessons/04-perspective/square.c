@@ -134,7 +134,7 @@ static void measure_every(const Shots *shots, Table *table, const Shot *shot, fl
     const Frame *frame = shots->frame;
     table_set(table, frame->scene->name, frame->technique->name, 0); /* one line through all n */
     size_t pixels = (size_t)frame->width * frame->height;
-    for (int every = 2; every <= 64; every *= 2) {
+    for (int every = 2; every <= 128; every *= 2) {
         memset(lookup->pixels, 0, 4 * pixels * sizeof *lookup->pixels);
         rasterize(frame, &shot->view->camera, (Raster){.every = every, .bound = bound, .lookup = lookup});
         Worst worst = compare_lookup(frame, shot, lookup, bound, NULL);
