@@ -30,7 +30,7 @@
 
 #define FLOOR(x, y, z, tx, ty, tz, fov) \
     {.eye = {x, y, z}, .target = {tx, ty, tz}, .up = {0, 0, 1}, .fov_y_degrees = fov, .near = 0.01, .far = 1000}
-#define HORIZON(y) FLOOR(0.07, y, 0.12, 0.3, 1 + (y), 0.02, 60)
+#define HORIZON(y) FLOOR(0.07, y, 0.12, 0.3, 1 + (y), 0.02126, 60)
 #define WALL(x, y, distance) \
     {.eye = {x, y, distance}, .target = {x, y, 0}, .up = {0, 1, 0}, .fov_y_degrees = 60, .near = 0.01, .far = 1000}
 
@@ -53,7 +53,7 @@ static const Lesson lesson = {
          .samples = 72, PLANE},
         {"grey", "the same floor from so high that every check is smaller than a pixel",
          .techniques = {NEAREST, TRILINEAR, TRILINEAR_SRGB},
-         .views = {{"minified", FLOOR(0.07, 0, 110, 30, 110, 0, 40)}}, .colour = "checker.png",
+         .views = {{"minified", FLOOR(0.07, 0, 200, 25, 200, 0, 40)}}, .colour = "checker.png",
          .load = plane_load, .samples = 32, PLANE},
         {"zone", "a zone plate: rings of every frequency up to the finest that texels can hold",
          .techniques = {NEAREST, BILINEAR, MIP_NEAREST, TRILINEAR, TRILINEAR_KAISER, SUMMED_AREA,

@@ -1,14 +1,16 @@
-/* The lesson's own metrics:
+/* The lesson's own metrics.
  *
- * brightness              the mean of the picture over the mean of the exact one: what a filter does to light
- * off_trilinear_rms_255   how far a picture is from trilinear filtering of its own chain at the exact level,
- * off_trilinear_max_255   computed here in doubles: of `opengl` that is what the driver's level is off, of
- *                         `mip-nearest` what the mix of two levels would have changed; in 1/255
- * off_bilinear_max_255    how far a picture made of a summed-area table is from bilinear interpolation at the
- *                         pixel's centre, which is what it should be wherever the texture is magnified
- * level_error_max_255     the largest difference between any texel of glGenerateMipmap's chain and of our box
- *                         chain, floats, in 1/255
- * srgb8_level_error_max_255  the same for a texture of 8-bit sRGB, in codes */
+ * brightness: the mean of the picture over that of the exact one, 1 for a filter that keeps the light.
+ *
+ * off_trilinear_rms_255, _max_255: how far a picture is from trilinear filtering of its own chain at the
+ * exact level, which is computed here in doubles. For `opengl` that is what the driver's level does, for
+ * `mip-nearest` what it does to mix no levels. In 1/255, as all below.
+ *
+ * off_bilinear_max_255: how far a picture of a summed-area table is from bilinear interpolation at the
+ * pixel's centre, over the pixels whose box is one texel large: there both are the same.
+ *
+ * level_error_max_255: the largest difference between any texel of glGenerateMipmap's chain and of our box
+ * chain, in floats; srgb8_level_error_max_255: the same in codes of 8-bit sRGB. */
 #include "plane.h"
 
 #include "context.h"
@@ -30,54 +32,60 @@ static void sample_chain(const Chain *chain, double u, double v, double level, d
     for (int i = 0; i < chain->levels[0].channels; i++) out[i] = a[i] + (b[i] - a[i]) * (level - fine);
 }
 
-/* The squared length in texels of d(u, v)/dx, of (u w, v w, w) at a pixel and its derivatives. */
-static double squared_side(const Image *base, Vec3 p, Vec3 derivative) {
-    double du = (derivative.x - p.x / p.z * derivative.z) / p.z * base->width;
-    double dv = (derivative.y - p.y / p.z * derivative.z) / p.z * base->height;
-    return du * du + dv * dv;
+/* The picture's difference from exact numbers, all channels. */
+typedef struct {
+    double sum, largest;
+    size_t count;
+} Difference255;
+
+static void add_difference(Difference255 *difference, const float *colour, const double *exact,
+                           int channels) {
+    for (int c = 0; c < 3; c++) {
+        double off = 255.0 * (colour[c] - exact[channels == 3 ? c : 0]);
+        difference->sum += off * off;
+        difference->largest = fmax(difference->largest, fabs(off));
+        difference->count++;
+    }
 }
 
-static void add_off_trilinear(const Shots *shots, const Shot *shot, const Chain *chain, Table *table) {
+/* What a pixel sees: u, v, and how many texels they move along x and y of the picture. */
+typedef struct {
+    double u, v;
+    Vec2 dx, dy;
+} Texels;
+
+static Texels texels_at(const Plane *plane, const Homography *h, int x, int y) {
+    Vec3 pixel = v3(x + 0.5, y + 0.5, 1.0);
+    double w = vec3_dot(h->w, pixel), u = vec3_dot(h->u, pixel) / w, v = vec3_dot(h->v, pixel) / w;
+    double width = plane->image.width / w, height = plane->image.height / w;
+    return (Texels){u, v, v2((h->u.x - u * h->w.x) * width, (h->v.x - v * h->w.x) * height),
+                    v2((h->u.y - u * h->w.y) * width, (h->v.y - v * h->w.y) * height)};
+}
+
+/* The metrics of one picture that is made of a chain, or of a table (whose chain is the image alone). */
+static void add_off(const Shots *shots, const Shot *shot, const Chain *chain, Table *table) {
     const Plane *plane = shots->frame->data;
     int width = shots->frame->width, height = shots->frame->height, channels = plane->image.channels;
     Homography h = plane_homography(plane, &shot->view->camera, width, height);
-    double sum = 0.0, largest = 0.0, last = chain->count - 1;
-    size_t count = 0;
+    Difference255 trilinear = {0}, bilinear = {0};
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             if (image_at(&shot->picture.lookup, x, y)[3] <= 0.5f) continue;
-            Vec3 pixel = v3(x + 0.5, y + 0.5, 1.0);
-            Vec3 p = v3(vec3_dot(h.u, pixel), vec3_dot(h.v, pixel), vec3_dot(h.w, pixel));
-            double square = fmax(squared_side(&plane->image, p, v3(h.u.x, h.v.x, h.w.x)),
-                                 squared_side(&plane->image, p, v3(h.u.y, h.v.y, h.w.y)));
-            double exact[4];
-            sample_chain(chain, p.x / p.z, p.y / p.z, clamp(0.5 * log2(square), 0.0, last), exact);
-            for (int c = 0; c < 3; c++) {
-                double off =
-                    255.0 * (image_at(&shot->picture.colour, x, y)[c] - exact[channels == 3 ? c : 0]);
-                sum += off * off;
-                largest = fmax(largest, fabs(off));
-                count++;
-            }
+            Texels t = texels_at(plane, &h, x, y);
+            double longer = fmax(hypot(t.dx.x, t.dx.y), hypot(t.dy.x, t.dy.y)), exact[4];
+            sample_chain(chain, t.u, t.v, clamp(log2(longer), 0.0, chain->count - 1.0), exact);
+            const float *colour = image_at(&shot->picture.colour, x, y);
+            add_difference(&trilinear, colour, exact, channels);
+            if (fabs(t.dx.x) + fabs(t.dy.x) <= 1.0 && fabs(t.dx.y) + fabs(t.dy.y) <= 1.0)
+                add_difference(&bilinear, colour, exact, channels);
         }
-    if (!count) return;
-    table_add(table, shots, shot->view, "off_trilinear_rms_255", sqrt(sum / (double)count), "1/255");
-    table_add(table, shots, shot->view, "off_trilinear_max_255", largest, "1/255");
-}
-
-/* ---- A summed-area table read one texel wide ---- */
-
-static void add_off_bilinear(const Shots *shots, const Shot *shot, Table *table) {
-    double largest = 0.0;
-    for (int i = 0; i < shots->frame->width * shots->frame->height; i++) {
-        const Sample *centre = &shot->centres[i];
-        const float *colour = shot->picture.colour.pixels + 3 * (size_t)i;
-        if (!centre->hit || shot->picture.lookup.pixels[4 * (size_t)i + 3] <= 0.5f) continue;
-        largest = fmax(largest, fabs(colour[0] - centre->colour.x));
-        largest = fmax(largest, fabs(colour[1] - centre->colour.y));
-        largest = fmax(largest, fabs(colour[2] - centre->colour.z));
+    if (chain->count > 1 && trilinear.count) {
+        table_add(table, shots, shot->view, "off_trilinear_rms_255",
+                  sqrt(trilinear.sum / (double)trilinear.count), "1/255");
+        table_add(table, shots, shot->view, "off_trilinear_max_255", trilinear.largest, "1/255");
+    } else if (bilinear.count) {
+        table_add(table, shots, shot->view, "off_bilinear_max_255", bilinear.largest, "1/255");
     }
-    table_add(table, shots, shot->view, "off_bilinear_max_255", 255.0 * largest, "1/255");
 }
 
 /* ---- OpenGL's chain against ours ---- */
@@ -122,14 +130,12 @@ static void add_level_errors(const Shots *shots, Table *table) {
 void plane_measure(const Shots *shots, Table *table) {
     Reads reads = shots->frame->technique->variant;
     const Reading *reading = plane_reading(shots->frame->data, reads);
-    bool sums = reads == READS_TABLE || reads == READS_NAIVE_TABLE;
     if (reads == READS_OPENGL) add_level_errors(shots, table);
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];
         double exact = mean(shot_exact(shot));
         if (exact > 0.0) /* a black image has no brightness to keep */
             table_add(table, shots, shot->view, "brightness", mean(&shot->picture.colour) / exact, "1");
-        if (sums) add_off_bilinear(shots, shot, table);
-        if (reading->chain.count > 1) add_off_trilinear(shots, shot, &reading->chain, table);
+        if (reads != READS_BASE) add_off(shots, shot, &reading->chain, table);
     }
 }

@@ -53,6 +53,7 @@ Chain plane_download(const Texture *texture, const Image *base) {
     Chain chain = {.count = texture->levels, .levels = {*base}};
     gl.BindTexture(GL_TEXTURE_2D, texture->id);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.Finish(); /* llvmpipe does not wait by itself for levels that it is still drawing */
     for (int k = 1; k < chain.count; k++) {
         int width = base->width >> k, height = base->height >> k;
         chain.levels[k] = image_create(width ? width : 1, height ? height : 1, base->channels);

@@ -1,8 +1,10 @@
-/* The functions of mipmap.glsl, as OSMesa runs them, against plain sums and interpolation in doubles. */
+/* The functions of mipmap.glsl and summed-area.glsl, as OSMesa runs them, against plain sums and
+ * interpolation in doubles; and glGenerateMipmap against our box chain. */
 #include "chain.h"
 #include "context.h"
 #include "draw.h"
 #include "fail.h"
+#include "plane.h"
 #include "stage.h"
 
 #include <setjmp.h>
@@ -52,7 +54,7 @@ static void random_footprints(Arguments *arguments, double repeats) {
 static void evaluate(const char *expression, const Arguments *arguments, const Texture *first,
                      const Texture *second, float (*results)[3]) {
     char *folder = project_path("lessons/05-mipmapping"), *common = project_path("common");
-    char *shader = text("#include \"mipmap.glsl\"\n"
+    char *shader = text("#include \"summed-area.glsl\"\n"
                         "uniform sampler2D arguments, first, second;\n"
                         "layout(location = 0) out vec4 colour;\n"
                         "void main() {\n"
@@ -281,6 +283,56 @@ static void summed_area_is_the_mean_of_the_box(void **unused) {
     }
 }
 
+/* ---- OpenGL's chain ---- */
+
+/* The largest difference of any level from ours, for the chain that OpenGL makes of a random image; and of
+ * level 1 from one bilinear read of the image at the texel's centre. */
+typedef struct {
+    double from_box, from_bilinear;
+} Distance;
+
+static Distance opengl_distance(int width, int height) {
+    Image image = random_image(width, height);
+    Chain ours = chain_create(&image, CHAIN_BOX);
+    Texture texture = texture_create(&image, 1, TEXTURE_FLOAT, TEXTURE_LINEAR);
+    texture_mipmap(&texture);
+    Chain theirs = plane_download(&texture, &image);
+    assert_int_equal(ours.count, theirs.count);
+    Distance distance = {0, 0};
+    for (int k = 1; k < ours.count; k++) {
+        const Image *level = &theirs.levels[k];
+        for (int y = 0; y < level->height; y++)
+            for (int x = 0; x < level->width; x++) {
+                double stored = *image_at(level, x, y), read;
+                image_sample(&image, (x + 0.5) / level->width, (y + 0.5) / level->height, &read);
+                distance.from_box = fmax(distance.from_box, fabs(stored - *image_at(&ours.levels[k], x, y)));
+                if (k == 1) distance.from_bilinear = fmax(distance.from_bilinear, fabs(stored - read));
+            }
+    }
+    chain_destroy(&theirs);
+    chain_destroy(&ours);
+    texture_destroy(&texture);
+    image_destroy(&image);
+    return distance;
+}
+
+static void opengl_halves_powers_of_two_as_we_do(void **unused) {
+    (void)unused;
+    assert_near(opengl_distance(64, 32).from_box, 0.0, 1e-6);
+    assert_near(opengl_distance(1, 16).from_box, 0.0, 1e-6);
+}
+
+/* So does OSMesa: two texels of a row where the area covers three. */
+static void opengl_halves_odd_sizes_by_one_bilinear_read(void **unused) {
+    (void)unused;
+    Distance distance = opengl_distance(45, 21);
+    printf("# glGenerateMipmap of 45 x 21 random texels: %.1f/255 from the area's mean, %.1g/255 from one "
+           "bilinear read\n",
+           255.0 * distance.from_box, 255.0 * distance.from_bilinear);
+    assert_near(distance.from_bilinear, 0.0, 1e-4);
+    assert_true(distance.from_box > 0.05);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(footprint_has_the_derivatives),
@@ -290,6 +342,8 @@ int main(void) {
         cmocka_unit_test(level_is_of_the_longer_side),
         cmocka_unit_test(levels_are_read_as_asked),
         cmocka_unit_test(summed_area_is_the_mean_of_the_box),
+        cmocka_unit_test(opengl_halves_powers_of_two_as_we_do),
+        cmocka_unit_test(opengl_halves_odd_sizes_by_one_bilinear_read),
     };
     Context *context = context_offscreen();
     cmocka_set_message_output(CM_OUTPUT_TAP);
