@@ -22,14 +22,13 @@ Rays camera_rays(const Camera *camera, int width, int height) {
     Axes axes = camera_axes(camera);
     double pixel = 2.0 * half_height(camera) / height; /* pixels are square */
     bool perspective = camera->fov_y_degrees > 0.0;
-    Vec3 right = vec3_scale(axes.right, pixel), up = vec3_scale(axes.up, pixel);
-    Vec3 middle = perspective ? axes.forward : camera->eye;
-    return (Rays){
-        .perspective = perspective,
-        .fixed = perspective ? camera->eye : axes.forward,
-        .corner = vec3_sub(middle, vec3_add(vec3_scale(right, width / 2.0), vec3_scale(up, height / 2.0))),
-        .right = right,
-        .up = up};
+    return (Rays){.perspective = perspective,
+                  .fixed = perspective ? camera->eye : axes.forward,
+                  .middle = perspective ? axes.forward : camera->eye,
+                  .right = vec3_scale(axes.right, pixel),
+                  .up = vec3_scale(axes.up, pixel),
+                  .half_width = width / 2.0,
+                  .half_height = height / 2.0};
 }
 
 Ray camera_ray(const Camera *camera, int width, int height, double x, double y) {

@@ -23,13 +23,15 @@ Ray camera_ray(const Camera *camera, int width, int height, double x, double y);
 typedef struct {
     bool perspective;
     Vec3 fixed;             /* what all rays share: their origin in perspective, else their direction */
-    Vec3 corner, right, up; /* of what they do not: its value at (0, 0), and what a pixel adds to it */
+    Vec3 middle, right, up; /* of what they do not: its value in the middle, and what a pixel adds to it */
+    double half_width, half_height; /* of the picture, in pixels */
 } Rays;
 
 Rays camera_rays(const Camera *camera, int width, int height);
 
 static inline Ray rays_at(const Rays *rays, double x, double y) {
-    Vec3 own = vec3_add(rays->corner, vec3_add(vec3_scale(rays->right, x), vec3_scale(rays->up, y)));
+    Vec3 aside = vec3_scale(rays->right, x - rays->half_width);
+    Vec3 own = vec3_add(rays->middle, vec3_add(aside, vec3_scale(rays->up, y - rays->half_height)));
     return rays->perspective ? (Ray){rays->fixed, vec3_normalize(own)} : (Ray){own, rays->fixed};
 }
 

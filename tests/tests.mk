@@ -43,14 +43,15 @@ $(NUMBERS:%=test-%): test-%: test-build ## (test-14) a lesson's tests alone
 	$(Q)$(PROVE) $(call tests_of,$(call lesson_of,$*)) $(TESTS)/shaders
 	$(Q)prove --exec '' tests/pictures.t :: $(call lesson_of,$*)
 
-# The units and the hard cases once more, built into a folder of their own with the sanitizers in.
+# The units and the hard cases once more, built into a folder of their own with the sanitizers in (whose dlopen
+# looks for libtexel-files.so in LD_LIBRARY_PATH alone).
 SANITIZE := -fsanitize=address,undefined -fno-omit-frame-pointer
 sanitize: ## unit and hard-case tests under ASan and UBSan
 	$(Q)$(MAKE) --no-print-directory B=$(B)/sanitize CFLAGS="$(CFLAGS) $(SANITIZE)" CXXFLAGS="$(CXXFLAGS) $(SANITIZE)" \
 		LDFLAGS="$(LDFLAGS) $(SANITIZE)" -j$(shell nproc) sanitize-run
 
 sanitize-run: $(filter-out $(TESTS)/png_difference,$(TEST_PROGRAMS))
-	$(Q)LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=halt_on_error=1 \
+	$(Q)LD_LIBRARY_PATH=$(B) LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=halt_on_error=1 \
 		$(PROVE) $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS)
 
 SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' | grep -v 'cases\.h$$')
