@@ -44,21 +44,11 @@ static int make_all(void **state) {
     for (int i = 0; i < SHAPES; i++) {
         double a = shapes[i].a, b = shapes[i].b;
         switch (shapes[i].kind) {
-        case PLANE:
-            meshes[i] = mesh_plane(a, b, shapes[i].columns, shapes[i].rows);
-            break;
-        case PRISM:
-            meshes[i] = mesh_prism(a, b, shapes[i].columns);
-            break;
-        case CYLINDER:
-            meshes[i] = mesh_cylinder(a, b, shapes[i].columns);
-            break;
-        case SPHERE:
-            meshes[i] = mesh_sphere(a, shapes[i].columns, shapes[i].rows);
-            break;
-        case BOX:
-            meshes[i] = mesh_box(a, b, shapes[i].c);
-            break;
+        case PLANE: meshes[i] = mesh_plane(a, b, shapes[i].columns, shapes[i].rows); break;
+        case PRISM: meshes[i] = mesh_prism(a, b, shapes[i].columns); break;
+        case CYLINDER: meshes[i] = mesh_cylinder(a, b, shapes[i].columns); break;
+        case SPHERE: meshes[i] = mesh_sphere(a, shapes[i].columns, shapes[i].rows); break;
+        case BOX: meshes[i] = mesh_box(a, b, shapes[i].c); break;
         }
     }
     return 0;

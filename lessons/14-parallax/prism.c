@@ -267,8 +267,8 @@ void prism_measure_sides(const Shots *shots, Table *table) {
         table_add(table, shots, shot->view, "distortion_texels_max", errors.max, "texels");
         table_point(table, shots, NULL, "angle-rms", "angle (degrees)", degrees, "rms distortion (texels)",
                     rms);
-        table_point(table, shots, NULL, "angle-max", "angle (degrees)", degrees, "largest distortion (texels)",
-                    errors.max);
+        table_point(table, shots, NULL, "angle-max", "angle (degrees)", degrees,
+                    "largest distortion (texels)", errors.max);
         table_set(table, frame->scene->name, frame->technique->name, 0); /* one line through all knobs */
         table_point(table, shots, shot->view, "sides-rms", "sides", sides, "rms distortion (texels)", rms);
         table_point(table, shots, shot->view, "sides-max", "sides", sides, "largest distortion (texels)",
