@@ -12,15 +12,15 @@ vec3 to_polygon(vec3 v, vec3 normal, vec3 tangent, float handedness) {
 }
 
 // The tangents of the angles from the normal to the unit view, along u and along v: M00 and M11 of the paper's
-// equation (2). A view in the polygon's plane or behind it has no such angle and shifts nothing. Below 1e-6 no bit of
+// matrix M. A view in the polygon's plane or behind it has no such angle and shifts nothing. Below 1e-6 no bit of
 // view.z is left but its rounding, so that is the plane too; hence no tangent is larger than 1e6.
 vec2 view_tangents(vec3 view) {
     if (!(view.z > 1e-6)) return vec2(0.0);
     return vec2(view.xy) / view.z;
 }
 
-// Where the eye sees the point that lies d above (u, v): u' = u + M du with du = dv = depth, the paper's (1)
-// and (2), for the same tangents over the whole polygon or for each pixel's own.
+// Where the eye sees the point that lies d above (u, v): u' = u + M00 du, v' = v + M11 dv with the paper's
+// du = dv = depth, for the same tangents over the whole polygon or for each pixel's own.
 vec2 parallax(vec2 uv, float d, vec2 tangents, float aspect) {
     return uv + d * vec2(tangents.x, tangents.y / aspect);
 }
