@@ -7,28 +7,27 @@
 
 /* ---- The image ---- */
 
-void *plane_load(const Options *options) {
+static Plane *plane_of(Image image) {
     Plane *plane = allocate(1, sizeof *plane);
-    plane->image = image_load(options->colour, IMAGE_COLOUR);
+    plane->image = image;
+    plane->aspect = (double)image.height / image.width;
     return plane;
 }
 
-static void *load_outlier(const Options *options, int size) {
-    Plane *plane = allocate(1, sizeof *plane);
-    Image tile = image_load(options->colour, IMAGE_COLOUR);
-    plane->image = image_create(size, size, 1);
+void *plane_load(const Options *options) { return plane_of(image_load(options->colour, IMAGE_COLOUR)); }
+
+static Plane *load_outlier(const Options *options, int size) {
+    Image tile = image_load(options->colour, IMAGE_COLOUR), image = image_create(size, size, 1);
     for (int y = 0; y < size; y++)
         for (int x = 0; x < size; x++)
-            *image_at(&plane->image, x, y) = image_at(&tile, x % tile.width, y % tile.height)[1];
-    *image_at(&plane->image, size / 4, size / 4) = 1e5f;
+            *image_at(&image, x, y) = image_at(&tile, x % tile.width, y % tile.height)[1];
+    *image_at(&image, size / 4, size / 4) = 1e5f;
     image_destroy(&tile);
-    return plane;
+    return plane_of(image);
 }
 
 void *plane_load_1024(const Options *options) { return load_outlier(options, 1024); }
 void *plane_load_4096(const Options *options) { return load_outlier(options, 4096); }
-
-static double aspect(const Plane *plane) { return (double)plane->image.height / plane->image.width; }
 
 Vec2 plane_texels(const void *data) {
     const Plane *plane = data;
@@ -114,7 +113,7 @@ static Vec3 carried(const Plane *plane, const Camera *camera, int width, int hei
     Vec3 d = vec3_scale(ray.direction, 1.0 / vec3_dot(ray.direction, forward));
     double side = camera->eye.z < 0.0 ? -1.0 : 1.0, w = -d.z * side; /* seen from below, it is still there */
     Vec3 p = vec3_add(vec3_scale(o, w), vec3_scale(d, o.z * side));
-    return v3(p.x + 0.5 * w, p.y / aspect(plane) + 0.5 * w, w);
+    return v3(p.x + 0.5 * w, p.y / plane->aspect + 0.5 * w, w);
 }
 
 Homography plane_homography(const Plane *plane, const Camera *camera, int width, int height) {
@@ -134,7 +133,7 @@ void plane_draw(const Frame *frame) {
     float matrix[9];
     for (int i = 0; i < 9; i++) matrix[i] = (float)columns[i];
     program_matrix(frame->program, "homography", matrix, 3);
-    program_vector(frame->program, "origin", camera->eye.x, camera->eye.y, camera->eye.z, aspect(plane));
+    program_vector(frame->program, "origin", camera->eye.x, camera->eye.y, camera->eye.z, plane->aspect);
     const Reading *reading = plane_reading(plane, frame->technique->variant);
     program_texture(frame->program, "image", &reading->image);
     program_texture(frame->program, "high", &reading->high);
@@ -149,7 +148,7 @@ Sample plane_truth(const void *data, Ray ray) {
     double t = -ray.origin.z / ray.direction.z;
     if (!(t > 0.0) || isinf(t)) return (Sample){0};
     Vec3 p = ray_at(ray, t);
-    Sample sample = {.u = p.x + 0.5, .v = p.y / aspect(plane) + 0.5, .depth = t, .hit = true};
+    Sample sample = {.u = p.x + 0.5, .v = p.y / plane->aspect + 0.5, .depth = t, .hit = true};
     double rgb[4];
     image_sample(&plane->image, sample.u, sample.v, rgb);
     sample.colour = plane->image.channels == 1 ? v3(rgb[0], rgb[0], rgb[0]) : v3(rgb[0], rgb[1], rgb[2]);

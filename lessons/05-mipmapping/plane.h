@@ -25,6 +25,7 @@ typedef struct {
 
 typedef struct {
     Image image;
+    double aspect;                 /* a repeat's height over its width */
     Reading readings[READS_COUNT]; /* each made when first drawn: an image may be large */
 } Plane;
 
