@@ -1,4 +1,4 @@
-// The hard cases of mipmap.glsl; tests/cases_glm.cpp says how this is written.
+// The hard cases of mipmap.glsl and summed-area.glsl; tests/cases_glm.cpp says how this is written.
 //
 // What is singular has a result all the same: a pixel on the horizon or above it is no hit, and the rest is
 // 0; an infinite footprint reads the last level, or (area, summed_area) is cut to 65536 repeats.
