@@ -72,6 +72,7 @@ void texture_mipmap(Texture *texture) {
     gl.BindTexture(GL_TEXTURE_2D, texture->id);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1000);
     gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.Finish(); /* OSMesa was seen to hand out levels, by glGetTexImage, that were not there yet */
     set_filter(TEXTURE_TRILINEAR);
     for (int size = texture->width > texture->height ? texture->width : texture->height; size > 1; size /= 2)
         texture->levels++;

@@ -68,9 +68,11 @@ typedef struct {
     double way;
 } Neighbours;
 
+/* (Without floor where it can be: it is a call, and the truth comes here for every ray.) */
 static Neighbours neighbours(double u, int size) {
-    double x = (u - floor(u)) * size - 0.5; /* wrapped first, so that a large u still fits an int */
-    int low = (int)floor(x);
+    if (!(u >= 0.0 && u < 1.0)) u -= floor(u); /* wrapped first, so that a large u still fits an int */
+    double x = u * size - 0.5;
+    int low = x < 0.0 ? -1 : (int)x;
     return (Neighbours){low < 0 ? size - 1 : low, low + 1 < size ? low + 1 : 0, x - low};
 }
 

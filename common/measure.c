@@ -103,12 +103,18 @@ static Reference reference_create(Session *session, const View *view) {
                            .width = session->choice->width,
                            .height = session->choice->height,
                            .samples = samples_of(scene)};
-    reference.centres = truth_centres(reference.truth, &view->camera, reference.width, reference.height);
-    size_t count = (size_t)reference.width * reference.height, unknown = 0;
-    for (size_t i = 0; i < count; i++) unknown += reference.centres[i].unknown;
-    reference.known_share = 1.0 - (double)unknown / (double)count;
-    if (reference.known_share == 0.0) fail("%s-%s: the truth knows no pixel", scene->name, view->name);
     return reference;
+}
+
+/* Looks along the centres of the pixels, if nobody has yet, and counts what the truth knows. */
+static void reference_look(Reference *reference) {
+    if (reference->centres) return;
+    const View *view = reference->view;
+    reference->centres = truth_centres(reference->truth, &view->camera, reference->width, reference->height);
+    size_t count = (size_t)reference->width * reference->height, unknown = 0;
+    for (size_t i = 0; i < count; i++) unknown += reference->centres[i].unknown;
+    reference->known_share = 1.0 - (double)unknown / (double)count;
+    if (reference->known_share == 0.0) fail("%s: the truth knows no pixel of this view", view->name);
 }
 
 static const Exact *reference_exact(Reference *reference, PixelFilter filter) {
@@ -187,6 +193,7 @@ static void report_difference(Session *session, const Variant *variant, Image *p
     char *name = picture_name(&frame);
     Difference difference;
     Image map = {0};
+    reference_look(reference);
     double share = reference->known_share;
     if (share < 1.0) hide_unknown(picture, exact, reference->centres);
     bool mapping = errors || wanted[3];
@@ -247,26 +254,33 @@ static void measure_errors(Session *session, int v) {
     const Scene *scene = session->stage.scene;
     Shot shots[VIEWS_MAX];
     Frame first = frame_of(session, variant, session->references[0].view);
-    if (session->table) table_set(session->table, scene->name, variant->technique->name, variant->knob);
+    bool measuring = session->table != NULL; /* else only colours are needed, and one picture at a time */
+    if (measuring) table_set(session->table, scene->name, variant->technique->name, variant->knob);
     for (int i = 0; i < session->view_count; i++) {
         Reference *reference = &session->references[i];
         Frame frame = frame_of(session, variant, reference->view);
-        Picture picture = picture_create(frame.width, frame.height, true);
+        Picture picture = picture_create(frame.width, frame.height, measuring);
         stage_draw(&session->stage, &frame, &picture);
-        session->pixels_drawn[v][i] = count_hits(&picture.lookup);
+        if (measuring) {
+            session->pixels_drawn[v][i] = count_hits(&picture.lookup);
+            reference_look(reference);
+        }
         if (session->orders->render) {
             char *name = picture_name(&frame);
             save_picture(&picture.colour, session->orders->render, name, "", true);
             free(name);
         }
-        if (session->table && scene->texels) report_lookup(session, &frame, &picture, reference);
+        if (measuring && scene->texels) report_lookup(session, &frame, &picture, reference);
         report_difference(session, variant, &picture.colour, reference, FILTER_BOX);
         if (scene->gaussian) report_difference(session, variant, &picture.colour, reference, FILTER_GAUSSIAN);
-        shots[i] = (Shot){reference->view, picture, reference->centres, reference};
+        if (measuring)
+            shots[i] = (Shot){reference->view, picture, reference->centres, reference};
+        else
+            picture_destroy(&picture);
         progress_step(session->stage.lesson, scene->name);
     }
-    if (session->table && scene->measure)
-        scene->measure(&(Shots){&first, shots, session->view_count}, session->table);
+    if (!measuring) return;
+    if (scene->measure) scene->measure(&(Shots){&first, shots, session->view_count}, session->table);
     for (int i = 0; i < session->view_count; i++) picture_destroy(&shots[i].picture);
 }
 
