@@ -1,8 +1,8 @@
 #!/usr/bin/perl
 # Pictures as tests: each lesson is measured at 320x240 and held against the bounds in its expect.csv; and its
-# reviewed pictures in tests/golden/ are drawn again. It measures time, so it runs last and alone.
+# reviewed pictures in tests/golden/ are drawn again. What measures time must run last and alone.
 #
-#   tests/pictures.t [NN-name...]     all lessons, or those
+#   tests/pictures.t [--errors | --costs] [NN-name...]     all rows of all lessons, or those
 #
 # A bound is empty, a number, or [FACTOR*]TECHNIQUE[:KNOB]: that row's value of the same metric, scene and view.
 use strict;
@@ -64,35 +64,48 @@ sub check {
     pass("$name = $value");
 }
 
-sub check_golden {
-    my ($path) = @_;
-    my ($lesson, $scene, $view, $technique, $knob) = $path =~ m{/([^./]+)\.([^.]+)\.([^.]+)\.([^.]+?)(?:\.([0-9.]+))?\.png$}
-        or return fail("$path: a golden picture is LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png");
-    my @command = ("build/$lesson", '--size', $size, '--scene', $scene, '--view', $view,
-        $technique eq 'truth' ? ('--truth', $folder) : ('--render', $folder, '--technique', $technique),
-        defined $knob ? ('--knob', $knob) : ());
-    return fail("$path: cannot be drawn") if system("@command 2>/dev/null");
-    my $picture = "$folder/" . join('-', $scene, $view, $technique, $knob // ()) . '.png';
-    my ($max, $mean) = split ' ', `build/tests/png_difference $picture $path`;
-    return fail("$path: cannot be compared") unless defined $mean;
-    ok($max <= $golden_limit{max} && $mean <= $golden_limit{mean},
-        "$path: at most $max/255 off, $mean/255 in the mean");
+sub check_golden { # all of a lesson's; those of one view are drawn by one process
+    my ($lesson, @paths) = @_;
+    my (%of_view, @pairs);
+    for my $path (@paths) {
+        my ($scene, $view, $technique, $knob) = $path =~ m{/[^./]+\.([^.]+)\.([^.]+)\.([^.]+?)(?:\.([0-9.]+))?\.png$}
+            or return fail("$path: a golden picture is LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png");
+        push @{ $of_view{"--scene $scene --view $view"} }, $technique eq 'truth' ? "--truth $folder"
+            : "--render $folder --technique $technique" . (defined $knob ? " --knob $knob" : '');
+        push @pairs, "$folder/" . join('-', $scene, $view, $technique, $knob // ()) . ".png $path";
+    }
+    for my $view (sort keys %of_view) {
+        my @each = @{ $of_view{$view} };
+        @each = ("--render $folder --truth $folder") if @each > 1;
+        system("build/$lesson --size $size $view @each 2>/dev/null") == 0 or return fail("$view: cannot be drawn");
+    }
+    my @differences = `build/tests/png_difference @pairs`;
+    is(@differences, @paths, "$lesson: all golden pictures can be compared");
+    for my $i (0 .. $#differences) {
+        my ($max, $mean) = split ' ', $differences[$i];
+        ok($max <= $golden_limit{max} && $mean <= $golden_limit{mean},
+            "$paths[$i]: at most $max/255 off, $mean/255 in the mean");
+    }
 }
 
+my $phase   = @ARGV && $ARGV[0] =~ /^--(errors|costs)$/ ? shift(@ARGV) : '';
 my @lessons = @ARGV ? @ARGV : map { m{^lessons/(.*)} } glob('lessons/[0-9][0-9]-*');
 make_path($folder);
 for my $lesson (@lessons) {
-    my $table = "$folder/$lesson.csv";
-    unlink $table;
+    my $stem     = "$folder/$lesson$phase";
     my @expected = rows("lessons/$lesson/expect.csv");
-    write_only("$folder/$lesson-only.csv", @expected);
-    my $said = `build/$lesson --measure $table --only $folder/$lesson-only.csv --size $size 2>&1`;
-    is($?, 0, "$lesson is measured") or diag $said;
-    my %values = map { (key(@{$_}{qw(scene technique knob view metric)}) => $_->{value}) } rows($table);
     ok(@expected > 0, "$lesson/expect.csv expects something");
-    check($_, \%values) for @expected;
+    @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio)/) } @expected if $phase;
+    if (@expected) {
+        unlink "$stem.csv";
+        write_only("$stem-only.csv", @expected);
+        my $said = `build/$lesson --measure $stem.csv --only $stem-only.csv --size $size 2>&1`;
+        is($?, 0, "$lesson is measured") or diag $said;
+        my %values = map { (key(@{$_}{qw(scene technique knob view metric)}) => $_->{value}) } rows("$stem.csv");
+        check($_, \%values) for @expected;
+    }
+    next if $phase eq '--costs';
     my @golden = glob("$golden/$lesson.*.png");
-    ok(@golden > 0, "$lesson has a golden picture");
-    check_golden($_) for @golden;
+    ok(@golden > 0, "$lesson has a golden picture") && check_golden($lesson, @golden);
 }
 done_testing();

@@ -24,24 +24,31 @@ $(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)): $(TESTS)/%: $(B)/obj/lessons/%.c.o \
 endef
 $(foreach lesson,$(LESSONS),$(if $(filter $(TESTS)/$(lesson)/%,$(LESSON_TESTS)),$(eval $(call LESSON_TEST_RULES,$(lesson)))))
 
-PARALLEL_TESTS = $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS) $(TESTS)/shaders \
-	$(filter-out tests/pictures.t,$(wildcard tests/*.t))
-TEST_PROGRAMS = $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS) $(TESTS)/shaders $(TESTS)/png_difference
+# The errors of each lesson's pictures: a program a lesson, so that they run side by side.
+PICTURES := $(LESSONS:%=$(TESTS)/pictures-%)
+$(PICTURES): $(TESTS)/pictures-%: tests/pictures.t
+	$(Q)mkdir -p $(@D)
+	$(Q)printf '#!/bin/sh\nexec tests/pictures.t --errors $*\n' >$@ && chmod +x $@
+
+# The longest first, so that none is left to run alone at the end.
+PARALLEL_TESTS = $(PICTURES) $(filter-out tests/pictures.t,$(wildcard tests/*.t)) \
+	$(LESSON_TESTS) $(CASES_TESTS) $(UNIT_TESTS) $(TESTS)/shaders
+TEST_PROGRAMS = $(PICTURES) $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS) $(TESTS)/shaders $(TESTS)/png_difference
 
 # Without --exec '' prove would hand programs to perl.
 PROVE := prove --exec '' -j2
-PROVE_ALONE := prove --exec '' -v
+PROVE_COSTS := prove --exec '' tests/pictures.t :: --costs
 
 test: install ## install what is missing, build, and run every test
 	$(Q)$(MAKE) --no-print-directory -j$(shell nproc) test-build
 	$(Q)$(PROVE) $(PARALLEL_TESTS)
-	$(Q)prove --exec '' tests/pictures.t
+	$(Q)$(PROVE_COSTS)
 
 test-build: all $(TEST_PROGRAMS)
 
 $(NUMBERS:%=test-%): test-%: test-build ## (test-14) a lesson's tests alone
-	$(Q)$(PROVE) $(call tests_of,$(call lesson_of,$*)) $(TESTS)/shaders
-	$(Q)prove --exec '' tests/pictures.t :: $(call lesson_of,$*)
+	$(Q)$(PROVE) $(TESTS)/pictures-$(call lesson_of,$*) $(call tests_of,$(call lesson_of,$*)) $(TESTS)/shaders
+	$(Q)$(PROVE_COSTS) $(call lesson_of,$*)
 
 # The units and the hard cases once more, built into a folder of their own with the sanitizers in (whose dlopen
 # looks for libtexel-files.so in LD_LIBRARY_PATH alone).
@@ -50,7 +57,7 @@ sanitize: ## unit and hard-case tests under ASan and UBSan
 	$(Q)$(MAKE) --no-print-directory B=$(B)/sanitize CFLAGS="$(CFLAGS) $(SANITIZE)" CXXFLAGS="$(CXXFLAGS) $(SANITIZE)" \
 		LDFLAGS="$(LDFLAGS) $(SANITIZE)" -j$(shell nproc) sanitize-run
 
-sanitize-run: $(filter-out $(TESTS)/png_difference,$(TEST_PROGRAMS))
+sanitize-run: $(filter-out $(PICTURES) $(TESTS)/png_difference,$(TEST_PROGRAMS))
 	$(Q)LD_LIBRARY_PATH=$(B) LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=halt_on_error=1 \
 		$(PROVE) $(UNIT_TESTS) $(LESSON_TESTS) $(CASES_TESTS)
 

@@ -101,10 +101,10 @@ BAIL_OUT('no display: ' . content("$root/xvfb")) if !$said;
 chomp $said;
 $ENV{DISPLAY} = ":$said";
 
-my @choice = qw(--scene brick --view 60 --technique per-pixel --size 320x240);
+my @choice = qw(--scene brick --view 60 --technique per-pixel --size 200x150);
 $window = background("$root/out", "$root/error", $lesson, @choice);
 system("$lesson @choice --render $root/offscreen 2>>$root/progress") == 0 or die;
-system(qw(timeout 15 xdotool search --sync --onlyvisible --name 14-parallax mousemove 160 120)) == 0 or die;
+system(qw(timeout 15 xdotool search --sync --onlyvisible --name 14-parallax mousemove 100 75)) == 0 or die;
 
 my $first = 'brick-60-per-pixel';
 saves($first);
@@ -135,7 +135,7 @@ saves(name($scene, $next_view // $views{$scene}[0], $next_plain // $techniques{$
 for (my $i = 1; $i < @scenes; $i++) { press('n'); }
 my ($per_pixel) = grep { $brick[$_] eq 'per-pixel' } 0 .. $#brick;
 press($per_pixel + 1);
-system(qw(xdotool mousemove 160 120 mousedown 1 mousemove 130 140 mousemove 100 150 mouseup 1 click 4)) == 0 or die;
+system(qw(xdotool mousemove 100 75 mousedown 1 mousemove 80 90 mousemove 60 95 mouseup 1 click 4)) == 0 or die;
 my $moved = 'brick-camera-per-pixel';
 saves($moved, 'c');
 rename "$saved/$moved.png", "$root/moved.png" or die;
