@@ -50,9 +50,8 @@ double options_scale(const Options *options, const Image *height) {
 
 /* ---- --list ---- */
 
-static void list_camera(const View *view) {
-    const Camera *c = &view->camera;
-    printf("  view %s %s eye %.17g %.17g %.17g target %.17g %.17g %.17g up %.17g %.17g %.17g ", view->name,
+static void list_camera(const char *role, const char *name, const Camera *c) {
+    printf("  %s %s %s eye %.17g %.17g %.17g target %.17g %.17g %.17g up %.17g %.17g %.17g ", role, name,
            c->fov_y_degrees > 0.0 ? "perspective" : "orthographic", c->eye.x, c->eye.y, c->eye.z, c->target.x,
            c->target.y, c->target.z, c->up.x, c->up.y, c->up.z);
     if (c->fov_y_degrees > 0.0)
@@ -97,7 +96,10 @@ static void list_scene(const Scene *scene, const Options *options) {
         for (int k = 0; k < knob_count(technique); k++) printf(" %g", technique->knob.values[k]);
         putchar('\n');
     }
-    for (int i = 0; i < view_count(scene); i++) list_camera(&scene->views[i]);
+    for (int i = 0; i < view_count(scene); i++)
+        list_camera("view", scene->views[i].name, &scene->views[i].camera);
+    for (int i = 0; i < 2 && scene->path[0].far > 0.0; i++)
+        list_camera("path", i ? "to" : "from", &scene->path[i]);
 }
 
 static void list(const Lesson *lesson, const Options *options, const Choice *choice) {

@@ -287,7 +287,7 @@ static void measure_errors(Session *session, int v) {
 /* ---- Flicker ---- */
 
 static bool wants_flicker(const Session *session, const Variant *variant) {
-    return session->stage.scene->path[0].far > 0.0 && wants_row(session, variant, "path", "flicker");
+    return session->stage.scene->path[0].far > 0.0 && wants_row(session, variant, "-", "flicker");
 }
 
 /* The variants that a row is wanted of, in their order; how many. */
@@ -333,7 +333,7 @@ static void measure_flicker(Session *session) {
     }
     for (int v = 0; v < variant_count; v++) {
         table_set(session->table, scene->name, variants[v]->technique->name, variants[v]->knob);
-        table_row(session->table, "path", "flicker", sqrt(sums[v] / ((PATH_FRAMES - 1.0) * (double)count)),
+        table_row(session->table, "-", "flicker", sqrt(sums[v] / ((PATH_FRAMES - 1.0) * (double)count)),
                   "linear");
     }
     free(before);

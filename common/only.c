@@ -61,8 +61,6 @@ void only_destroy(Only *only) {
 
 static bool matches(const char *wanted, const char *name) { return !name || strcmp(wanted, name) == 0; }
 
-static bool is_camera(const char *view) { return strcmp(view, "-") != 0 && strcmp(view, "path") != 0; }
-
 bool only_wants(const Only *only, const char *scene, const char *technique, double knob, const char *view,
                 const char *metric) {
     if (!only) return true;
@@ -72,7 +70,8 @@ bool only_wants(const Only *only, const char *scene, const char *technique, doub
         const char *const *fields = only->rows[i].fields;
         if (matches(fields[SCENE], scene) && matches(fields[TECHNIQUE], technique) &&
             (knob == ONLY_ANY_KNOB || matches(fields[KNOB], number)) &&
-            (matches(fields[VIEW], view) || !is_camera(fields[VIEW])) && matches(fields[METRIC], metric))
+            (matches(fields[VIEW], view) || strcmp(fields[VIEW], "-") == 0) &&
+            matches(fields[METRIC], metric))
             return true;
     }
     return false;

@@ -15,7 +15,8 @@ void only_destroy(Only *only);
 enum { ONLY_ANY_KNOB = -1 };
 
 /* Whether a row is wanted that has this scene, technique, knob, view and metric. NULL, or ONLY_ANY_KNOB: any.
- * A listed view that is no camera ("-", "path") stands for all of them. With only NULL everything is wanted.
+ * A
+ * listed view "-" stands for all. With only NULL everything is wanted.
  */
 bool only_wants(const Only *only, const char *scene, const char *technique, double knob, const char *view,
                 const char *metric);

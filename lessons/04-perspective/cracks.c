@@ -126,6 +126,6 @@ void cracks_measure(const Shots *shots, Table *table) {
             sum.doubled += cracks.doubled;
         }
     }
-    table_row(table, "path", "missed_pixels", sum.missed, "pixels");
-    table_row(table, "path", "doubled_pixels", sum.doubled, "pixels");
+    table_row(table, "-", "missed_pixels", sum.missed, "pixels");
+    table_row(table, "-", "doubled_pixels", sum.doubled, "pixels");
 }
