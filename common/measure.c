@@ -10,7 +10,8 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { ROUNDS = 7, SAMPLES = 18, PATH_FRAMES = 16 };
+enum { ROUNDS_MIN = 7, ROUNDS_MAX = 41, SAMPLES = 18, PATH_FRAMES = 16 };
+static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS_MIN is begun */
 
 /* What pictures from one view are held against. */
 typedef struct Reference {
@@ -359,7 +360,7 @@ static int choose_for_speed(const Session *session, const char *view, int chosen
 }
 
 typedef struct {
-    double draw_ns[ROUNDS], ratio[ROUNDS], prepare_ns[ROUNDS];
+    double draw_ns[ROUNDS_MAX], ratio[ROUNDS_MAX], prepare_ns[ROUNDS_MAX];
 } Timing;
 
 static int by_size(const void *a, const void *b) {
@@ -367,28 +368,32 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void report_timing(Session *session, int v, int view_index, Timing *timing) {
+static void report_timing(Session *session, int v, int view_index, Timing *timing, int rounds) {
     const Variant *variant = &session->variants[v];
     const char *view = session->references[view_index].view->name;
     double pixels = session->pixels_drawn[v][view_index];
-    qsort(timing->draw_ns, ROUNDS, sizeof(double), by_size);
-    qsort(timing->ratio, ROUNDS, sizeof(double), by_size);
-    qsort(timing->prepare_ns, ROUNDS, sizeof(double), by_size);
+    qsort(timing->draw_ns, rounds, sizeof(double), by_size);
+    qsort(timing->ratio, rounds, sizeof(double), by_size);
+    qsort(timing->prepare_ns, rounds, sizeof(double), by_size);
     table_set(session->table, session->stage.scene->name, variant->technique->name, variant->knob);
     table_row(session->table, view, "ns_per_pixel", timing->draw_ns[0] / pixels, "ns");
-    table_row(session->table, view, "cost_ratio", timing->ratio[ROUNDS / 2], "1");
+    table_row(session->table, view, "cost_ratio", timing->ratio[rounds / 2], "1");
     if (variant->technique->prepare)
         table_row(session->table, view, "prepare_ns_per_pixel", timing->prepare_ns[0] / pixels, "ns");
 }
 
-/* All variants from one view take turns, so that what else the machine does falls on all alike. */
+/* All variants from one view take turns, so that what else the machine does falls on all alike; where frames
+ * are short, for more rounds. */
 static void measure_speed(Session *session, int view_index) {
     const View *view = session->references[view_index].view;
     int chosen[VARIANTS_MAX], count = choose_for_speed(session, view->name, chosen);
     if (!count) return;
     Timing *timings = allocate((size_t)count, sizeof *timings);
     Picture scratch = picture_create(session->choice->width, session->choice->height, false);
-    for (int round = -1; round < ROUNDS; round++) { /* round -1 warms up and is not counted */
+    struct timespec start;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    int round = -1; /* which warms up and is not counted */
+    for (; round < ROUNDS_MIN || (round < ROUNDS_MAX && seconds_since(start) < SPEED_SECONDS); round++) {
         for (int i = 0; i < count; i++) {
             Frame frame = frame_of(session, &session->variants[chosen[i]], view);
             Cost cost = stage_time(&session->stage, &frame, &scratch);
@@ -399,7 +404,8 @@ static void measure_speed(Session *session, int view_index) {
         }
     }
     for (int i = 0; i < count; i++)
-        if (session->variants[chosen[i]].wanted) report_timing(session, chosen[i], view_index, &timings[i]);
+        if (session->variants[chosen[i]].wanted)
+            report_timing(session, chosen[i], view_index, &timings[i], round);
     free(timings);
     picture_destroy(&scratch);
     progress_step(session->stage.lesson, "speed");
