@@ -3,6 +3,7 @@
 
 #include "compare.h"
 #include "fail.h"
+#include "reference.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,17 +13,6 @@
 
 enum { ROUNDS_MIN = 7, ROUNDS_MAX = 41, SAMPLES = 18, PATH_FRAMES = 16 };
 static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS_MIN is begun */
-
-/* What pictures from one view are held against. */
-typedef struct Reference {
-    const View *view;
-    const Truth *truth;
-    int width, height, samples;
-    Exact exact[2]; /* by PixelFilter; made when first asked for, */
-    Seen seen[2];   /* as these are */
-    Sample *centres;
-    double known_share; /* of the pixels: see hide_unknown */
-} Reference;
 
 /* One technique with one value of its knob. */
 typedef struct {
@@ -97,45 +87,8 @@ static Frame frame_of(const Session *session, const Variant *variant, const View
 
 static int samples_of(const Scene *scene) { return scene->samples ? scene->samples : SAMPLES; }
 
-static Reference reference_create(Session *session, const View *view) {
-    const Scene *scene = session->stage.scene;
-    Reference reference = {.view = view,
-                           .truth = &session->stage.truth,
-                           .width = session->choice->width,
-                           .height = session->choice->height,
-                           .samples = samples_of(scene)};
-    return reference;
-}
-
-/* Looks along the centres of the pixels, if nobody has yet, and counts what the truth knows. */
-static void reference_look(Reference *reference) {
-    if (reference->centres) return;
-    const View *view = reference->view;
-    reference->centres = truth_centres(reference->truth, &view->camera, reference->width, reference->height);
-    size_t count = (size_t)reference->width * reference->height, unknown = 0;
-    for (size_t i = 0; i < count; i++) unknown += reference->centres[i].unknown;
-    reference->known_share = 1.0 - (double)unknown / (double)count;
-    if (reference->known_share == 0.0) fail("%s: the truth knows no pixel of this view", view->name);
-}
-
-static const Exact *reference_exact(Reference *reference, PixelFilter filter) {
-    Exact *exact = &reference->exact[filter];
-    if (!exact->image.pixels)
-        *exact = truth_render(reference->truth, &reference->view->camera, reference->width, reference->height,
-                              reference->samples, filter);
-    return exact;
-}
-
-static const Seen *reference_seen(Reference *reference, PixelFilter filter) {
-    Seen *seen = &reference->seen[filter];
-    if (!seen->pixels) *seen = seen_create(&reference_exact(reference, filter)->image);
-    return seen;
-}
-
-const Image *shot_exact(const Shot *shot) { return &reference_exact(shot->reference, FILTER_BOX)->image; }
-
 /* How exact the exact pictures are that were asked for. */
-static void reference_report(Session *session, const Reference *reference) {
+static void report_reference(Session *session, const Reference *reference) {
     static const char *const metrics[] = {"truth_rmse", "truth_rmse_gaussian"};
     table_set(session->table, session->stage.scene->name, "truth", 0);
     for (int filter = 0; filter < 2; filter++)
@@ -144,19 +97,11 @@ static void reference_report(Session *session, const Reference *reference) {
                       "linear");
 }
 
-static void reference_save(const Session *session, Reference *reference) {
+static void save_reference(const Session *session, Reference *reference) {
     char *name = text("%s-%s", session->stage.scene->name, reference->view->name);
     save_picture(&reference_exact(reference, FILTER_BOX)->image, session->orders->truth, name, "-truth",
                  true);
     free(name);
-}
-
-static void reference_destroy(Reference *reference) {
-    for (int filter = 0; filter < 2; filter++) {
-        image_destroy(&reference->exact[filter].image);
-        seen_destroy(&reference->seen[filter]);
-    }
-    free(reference->centres);
 }
 
 /* ---- Error ---- */
@@ -457,8 +402,9 @@ static void measure_scene(Session *session) {
     if (!session->view_count) return;
     choose_variants(session);
     for (int i = 0; i < session->view_count; i++) {
-        session->references[i] = reference_create(session, views[i]);
-        if (orders->truth) reference_save(session, &session->references[i]);
+        session->references[i] = reference_create(&session->stage.truth, views[i], session->choice->width,
+                                                  session->choice->height, samples_of(scene));
+        if (orders->truth) save_reference(session, &session->references[i]);
         progress_step(session->stage.lesson, "truth");
     }
     if (orders->render || orders->errors || orders->measure)
@@ -467,7 +413,7 @@ static void measure_scene(Session *session) {
     if (!orders->measure) return;
     measure_flicker(session);
     for (int i = 0; i < session->view_count; i++) measure_speed(session, i);
-    for (int i = 0; i < session->view_count; i++) reference_report(session, &session->references[i]);
+    for (int i = 0; i < session->view_count; i++) report_reference(session, &session->references[i]);
 }
 
 /* The steps that progress_step will be called for, of one scene. */
