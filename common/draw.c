@@ -17,11 +17,10 @@ void draw_check(const char *what) {
 static void upload(const Image *image, int level, TextureFormat format) {
     static const GLenum layouts[] = {0, GL_RED, GL_RG, GL_RGB, GL_RGBA};
     static const GLint floats[] = {0, GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F};
-    static const GLint halves[] = {0, GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F};
     size_t count = (size_t)image->width * image->height;
     const void *pixels = image->pixels;
     unsigned char *bytes = NULL; /* sRGB is encoded here: OpenGL would store linear floats as they are */
-    GLint stored = format == TEXTURE_FLOAT ? floats[image->channels] : halves[image->channels];
+    GLint stored = floats[image->channels];
     if (format == TEXTURE_SRGB8) {
         stored = GL_SRGB8_ALPHA8;
         pixels = bytes = allocate(count, 3);
@@ -60,12 +59,6 @@ Texture texture_of(const Image *image, ImageKind kind) {
     if (kind == IMAGE_COLOUR && image->bits == 8) format = TEXTURE_SRGB8;
     if (kind == IMAGE_HEIGHT && image->bits <= 16) format = TEXTURE_R16;
     return texture_create(image, 1, format, TEXTURE_LINEAR);
-}
-
-void texture_clamp(const Texture *texture) {
-    gl.BindTexture(GL_TEXTURE_2D, texture->id);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 void texture_mipmap(Texture *texture) {

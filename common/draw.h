@@ -41,8 +41,7 @@ void program_matrix(const Program *program, const char *name, const float *colum
 typedef enum {
     TEXTURE_SRGB8, /* three channels, linear floats outside, eight bits of sRGB inside */
     TEXTURE_R16,   /* one channel of 0..1 in sixteen bits, which hold eight exactly too */
-    TEXTURE_FLOAT, /* one to four channels of 32-bit floats */
-    TEXTURE_HALF   /* one to four channels of 16-bit floats */
+    TEXTURE_FLOAT  /* one to four channels of 32-bit floats */
 } TextureFormat;
 
 typedef enum { TEXTURE_NEAREST, TEXTURE_LINEAR, TEXTURE_MIP_NEAREST, TEXTURE_TRILINEAR } TextureFilter;
@@ -59,8 +58,7 @@ Texture texture_create(const Image *levels, int count, TextureFormat format, Tex
 /* What a lesson wants most: one level, bilinear, and what the file held, exactly. A colour image of 8 bits
  * becomes TEXTURE_SRGB8, a height of 8 or 16 bits TEXTURE_R16, anything else TEXTURE_FLOAT. */
 Texture texture_of(const Image *image, ImageKind kind);
-void texture_clamp(const Texture *texture); /* clamps to the edge instead of repeating */
-void texture_mipmap(Texture *texture);      /* glGenerateMipmap, and TEXTURE_TRILINEAR */
+void texture_mipmap(Texture *texture); /* glGenerateMipmap, and TEXTURE_TRILINEAR */
 void texture_destroy(Texture *texture);
 
 /* Binds it to the sampler of that name. */
@@ -78,7 +76,7 @@ Shape shape_create(const Mesh *mesh);
 void shape_draw(const Shape *shape);
 void shape_destroy(Shape *shape);
 
-/* Two triangles over the whole target, without a mesh: for a .vert that makes its corners from gl_VertexID.
+/* One triangle over the whole target, without a mesh: for a .vert that makes its corners from gl_VertexID.
  */
 void draw_everywhere(void);
 

@@ -37,6 +37,8 @@ typedef struct {
     Program *program;  /* in use while draw runs; NULL in prepare and paint */
 } Frame;
 
+enum { KNOBS_MAX = 8 };
+
 /* One way to draw a scene. Either vertex and fragment name shader files of the lesson (or of common), and the
  * scene's draw is called with them in use; or paint makes the picture in C. */
 struct Technique {
@@ -89,7 +91,7 @@ void table_add(Table *table, const Shots *shots, const View *view, const char *m
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y);
 
-enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, KNOBS_MAX = 8, FACTS_MAX = 12 };
+enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18 };
 
 struct Scene {
     const char *name, *what;
@@ -99,7 +101,7 @@ struct Scene {
     const char *colour, *height; /* assets by file name; --colour and --height replace them */
     const char *other[2];        /* assets that cannot be replaced */
     Fact facts[FACTS_MAX];
-    int samples;    /* rays a pixel of the truth; 0: 18 */
+    int samples;    /* rays a pixel of the truth; 0: SAMPLES */
     bool gaussian;  /* report against the Gaussian pixel filter too */
     Camera path[2]; /* for `flicker`, 16 frames from one to the other; none where both are 0 */
     void *(*load)(const Options *options); /* with the context current */

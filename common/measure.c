@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { ROUNDS_MIN = 7, ROUNDS_MAX = 41, SAMPLES = 18, PATH_FRAMES = 16 };
+enum { ROUNDS_MIN = 7, ROUNDS_MAX = 41, PATH_FRAMES = 16 };
 static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS_MIN is begun */
 
 /* One technique with one value of its knob. */

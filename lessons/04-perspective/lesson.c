@@ -4,7 +4,7 @@
  * tilted, the wall breaks along the diagonal of its two triangles, for s and t are linear on the wall but not
  * on the screen. `subdivided` breaks it into many small errors, `spans` into bulges that `perspective` has
  * not. And `colour` shows what is left of a texture that is looked up at the corners alone. On the floor,
- * which goes on under the eye and behind it, walk with the same techniques. Then the joints: bright pixels
+ * which goes on under the eye and behind it, try the same techniques. Then the joints: bright pixels
  * that no triangle draws, and blue ones that two draw. */
 #include "cracks.h"
 #include "raster.h"

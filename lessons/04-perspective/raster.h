@@ -4,8 +4,8 @@
  * Which pixels are drawn is decided in integers, so that polygons that share an edge never miss a pixel and
  * never draw one twice. What a pixel shows is computed from the polygon as it was before it was snapped to
  * those integers. Row 0 is the bottom row, and pixel (x, y) has its centre at (x + 0.5, y + 0.5). */
-#ifndef TEXEL_RASTER_H
-#define TEXEL_RASTER_H
+#ifndef LESSON_RASTER_H
+#define LESSON_RASTER_H
 
 #include "camera.h"
 #include "image.h"

@@ -1,6 +1,6 @@
 /* What C makes of a texture so that GLSL can read much of it at once: mip chains and summed-area tables. */
-#ifndef TEXEL_CHAIN_H
-#define TEXEL_CHAIN_H
+#ifndef LESSON_CHAIN_H
+#define LESSON_CHAIN_H
 
 #include "image.h"
 

@@ -1,6 +1,6 @@
 /* Mipmapping: how much of a texture one pixel sees, and how to read that much at once.
  *
- * What to look for: walk toward the horizon of `floor`. With `nearest` and `bilinear` the far checks boil,
+ * What to look for: look toward the horizon of `floor`. With `nearest` and `bilinear` the far checks boil,
  * for a pixel that covers a hundred texels reads one or four. A chain of halved images turns them into even
  * grey, at the price of blur: first along the view, where footprints are long and thin. `mip-nearest` shows
  * where one level ends, `trilinear-srgb` how grey turns dark when the means are taken of the wrong numbers.
@@ -10,7 +10,7 @@
 /* ---- The techniques: a fragment shader each, and what C made of the image for it ---- */
 
 /* clang-format off */
-#define READING(name, shader, reads, what) name, what, "floor.vert", shader ".frag", .variant = reads
+#define READING(name, shader, reads, what) name, what, "everywhere.vert", shader ".frag", .variant = reads
 
 #define NEAREST {READING("nearest", "nearest", READS_BASE, "the texel under the pixel's centre")}
 #define BILINEAR {READING("bilinear", "bilinear", READS_BASE, "the four texels around the pixel's centre")}

@@ -1,7 +1,7 @@
 /* The scene of this lesson: one endless plane, tiled with an image. A floor and a wall differ in where the
  * camera stands and in which way it calls up. */
-#ifndef PLANE_H
-#define PLANE_H
+#ifndef LESSON_PLANE_H
+#define LESSON_PLANE_H
 
 #include "chain.h"
 #include "lesson.h"
@@ -10,8 +10,8 @@
 typedef enum {
     READS_BASE,        /* the image alone */
     READS_BOX,         /* and its chain: see chain.h */
-    READS_SRGB_BOX,    /* . */
-    READS_KAISER,      /* . */
+    READS_SRGB_BOX,    /* the same of sRGB numbers */
+    READS_KAISER,      /* the same by a windowed sinc */
     READS_OPENGL,      /* the chain that glGenerateMipmap makes */
     READS_TABLE,       /* its summed-area table */
     READS_NAIVE_TABLE, /* the same without its low half */

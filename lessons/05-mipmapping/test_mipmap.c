@@ -65,7 +65,7 @@ static void evaluate(const char *expression, const Arguments *arguments, const T
                         "}\n",
                         expression);
     Program program = {0};
-    char *log = program_build_text(&program, folder, common, "floor.vert", "test", shader, GLSL_330);
+    char *log = program_build_text(&program, folder, common, "everywhere.vert", "test", shader, GLSL_330);
     if (log) fail_msg("%s", log);
     Image image = {.width = 2, .height = COUNT, .channels = 4, .pixels = (float *)(uintptr_t)arguments};
     Texture numbers = texture_create(&image, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);

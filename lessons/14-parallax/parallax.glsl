@@ -19,8 +19,8 @@ vec2 view_tangents(vec3 view) {
     return vec2(view.xy) / view.z;
 }
 
-// Where the eye sees the point that lies d above (u, v): u' = u + M00 du, v' = v + M11 dv with the paper's
-// du = dv = depth, for the same tangents over the whole polygon or for each pixel's own.
+// Where the eye sees the point that lies d above (u, v): u' = u + M00 d, v' = v + M11 d (the paper
+// calls both d's du and dv), for the same tangents over the whole polygon or for each pixel's own.
 vec2 parallax(vec2 uv, float d, vec2 tangents, float aspect) {
     return uv + d * vec2(tangents.x, tangents.y / aspect);
 }

@@ -1,8 +1,8 @@
 /* The scenes `cylinder` and `sides`: prisms that should look like the cylinder around them. Each face lies
  * inside it, and its depth map (base 0) is the arc's height above the chord. The cylinder has radius 1 around
  * the y axis; u and v are arc length and height in circumferences, so texels are square on it. */
-#ifndef PRISM_H
-#define PRISM_H
+#ifndef LESSON_PRISM_H
+#define LESSON_PRISM_H
 
 #include "lesson.h"
 

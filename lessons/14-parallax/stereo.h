@@ -1,6 +1,6 @@
 /* The scene `stereo`: the wall of wall.h seen by two eyes. */
-#ifndef STEREO_H
-#define STEREO_H
+#ifndef LESSON_STEREO_H
+#define LESSON_STEREO_H
 
 #include "wall.h"
 

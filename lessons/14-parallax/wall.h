@@ -1,7 +1,7 @@
 /* The scene most of the lesson happens on: one polygon with a colour and a depth, seen from several angles.
  */
-#ifndef WALL_H
-#define WALL_H
+#ifndef LESSON_WALL_H
+#define LESSON_WALL_H
 
 #include "lesson.h"
 
