@@ -1,5 +1,5 @@
-/* Prints the largest and the mean difference of two 8-bit images' stored values, in 255ths; a line for each pair
- * of files. */
+/* Prints the largest and the mean difference of two 8-bit images' stored values, in 255ths; a line for each
+ * pair of files. */
 #include "fail.h"
 #include "image.h"
 
