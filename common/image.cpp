@@ -248,6 +248,9 @@ static File create_beside(const char *path, std::string *name) {
 
 /* Makes the file appear whole or not at all: written under another name, then renamed. */
 static const char *store(const std::vector<unsigned char> &bytes, const char *path) {
+    struct stat there; /* renaming onto a device would replace it */
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
+        return S_ISDIR(there.st_mode) ? "cannot be written: Is a directory" : "cannot be written: is no file";
     std::string name;
     File file = create_beside(path, &name);
     if (!file) return reason("cannot be written: %s", strerror(errno));

@@ -45,7 +45,10 @@ int knob_count(const Technique *technique) {
 static double first_number(double a, double b, double c) { return !isnan(a) ? a : !isnan(b) ? b : c; }
 
 double options_scale(const Options *options, const Image *height) {
-    return first_number(options->scale, height->scale, 0.1);
+    double scale = first_number(options->scale, height->scale, 0.1);
+    if (!(scale >= 0.0 && scale <= SCALE_MAX))
+        fail("%s: its scale is %g texture widths; 0 to %d can be drawn", options->height, scale, SCALE_MAX);
+    return scale;
 }
 
 /* ---- --list ---- */
@@ -73,7 +76,9 @@ static void list_scale(const Scene *scene, const Options *options) {
     char *path =
         options->height ? text("%s", options->height) : project_path("build/assets/%s", scene->height);
     Image height = image_load(path, IMAGE_HEIGHT);
-    printf("  scale %.17g texture widths\n", options_scale(options, &height));
+    Options complete = {.height = path, .scale = options->scale};
+    printf("  scale %.17g texture widths\n", options_scale(&complete, &height));
+    if (!isnan(height.base)) printf("  base_of_file %.17g\n", height.base);
     image_destroy(&height);
     free(path);
 }
@@ -132,12 +137,12 @@ static void print_help(const Lesson *lesson) {
            lesson->name, lesson->title, program_invocation_name, IMAGE_SIDE_MAX);
 }
 
-static double parse_number(const char *option, const char *argument, double least) {
+static double parse_number(const char *option, const char *argument, double least, double most) {
     char *end;
     errno = 0;
     double value = strtod(argument, &end);
-    if (end == argument || *end || errno || !isfinite(value) || value < least)
-        fail_usage("%s %s: expected a number, %g or more", option, argument, least);
+    if (end == argument || *end || errno || !(value >= least && value <= most))
+        fail_usage("%s %s: expected a number from %g to %g", option, argument, least, most);
     return value;
 }
 
@@ -205,15 +210,32 @@ static void make_folder(const char *path) {
     if (access(path, W_OK) != 0) fail("%s: cannot be written: %s", path, strerror(errno));
 }
 
-/* Refuses a table that could not be written before minutes are spent on it. */
+/* Refuses a table that could not be written before minutes are spent on it: by writing an empty one beside
+ * it, and by looking at what is there, for a device would be replaced by a file. */
 static void check_writable(const char *path) {
     char *folder = text("%s", path), *slash = strrchr(folder, '/');
     if (slash) *slash = '\0';
     if (slash && slash != folder) make_folder(folder);
     free(folder);
     struct stat status;
-    if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) fail("%s: is a folder", path);
-    if (access(path, W_OK) != 0 && errno != ENOENT) fail("%s: cannot be written: %s", path, strerror(errno));
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) fail("%s: is no file", path);
+    char *partial = text("%s.partial", path);
+    FILE *file = fopen(partial, "wb");
+    if (!file) fail("%s: cannot be written: %s", path, strerror(errno));
+    fclose(file);
+    remove(partial);
+    free(partial);
+}
+
+/* What the user gave must at least be there, whatever is done then. */
+static void check_readable(const char *path) {
+    if (path && access(path, R_OK) != 0) fail("%s: %s", path, strerror(errno));
+}
+
+/* What was printed must have arrived, as on a full disk it has not. */
+static int finish_printing(void) {
+    if (fflush(stdout) != 0 || ferror(stdout)) fail("standard output: %s", strerror(errno));
+    return 0;
 }
 
 /* The letters are only these options' names in the switch below; there are no short ones. */
@@ -241,26 +263,31 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
         case 'r': orders.render = optarg; break;
         case 't': orders.truth = optarg; break;
         case 'e': orders.errors = optarg; break;
-        case 'm': orders.measure = optarg; break;
+        case 'm':
+            if (!*optarg) fail_usage("--measure: needs a file's name");
+            orders.measure = optarg;
+            break;
         case 'o': only = optarg; break;
         case 'S': choice.scene = optarg; break;
         case 'T': choice.technique = optarg; break;
-        case 'K': choice.knob = parse_number("--knob", optarg, 1e-6); break;
+        case 'K': choice.knob = parse_number("--knob", optarg, 1e-6, 1e6); break;
         case 'V': choice.view = optarg; break;
         case 'W': parse_size(optarg, &choice); break;
         case 'C': options.colour = optarg; break;
         case 'H': options.height = optarg; break;
-        case 'X': options.scale = parse_number("--scale", optarg, 0.0); break;
-        case 'h': print_help(lesson); return 0;
+        case 'X': options.scale = parse_number("--scale", optarg, 0.0, SCALE_MAX); break;
+        case 'h': print_help(lesson); return finish_printing();
         case ':': fail_usage("%s: needs a value; --help lists the options", argv[optind - 1]);
         default: fail_usage("%s: no such option; --help lists them", argv[optind - 1]);
         }
     }
     if (optind < argc) fail_usage("%s: nothing is expected here; --help lists the options", argv[optind]);
     check_choice(lesson, &options, &choice);
+    check_readable(options.colour);
+    check_readable(options.height);
     if (listing) {
         list(lesson, &options, &choice);
-        return 0;
+        return finish_printing();
     }
     const char *const folders[] = {orders.render, orders.truth, orders.errors};
     bool making = orders.measure != NULL;

@@ -91,7 +91,7 @@ void table_add(Table *table, const Shots *shots, const View *view, const char *m
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y);
 
-enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18 };
+enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18, SCALE_MAX = 10 };
 
 struct Scene {
     const char *name, *what;
@@ -106,8 +106,8 @@ struct Scene {
     Camera path[2]; /* for `flicker`, 16 frames from one to the other; none where both are 0 */
     void *(*load)(const Options *options); /* with the context current */
     void (*unload)(void *data);
-    void (*draw)(
-        const Frame *frame); /* view_projection, model (identity), eye, knob, variant, size are set */
+    /* For the shader view_projection, model (identity), eye, eye_plane, knob, variant and size are set. */
+    void (*draw)(const Frame *frame);
     Sample (*truth)(const void *data, Ray ray);
     Vec2 (*texels)(
         const void *data); /* width and height of the texture that u and v are errors in; or NULL */
@@ -122,7 +122,9 @@ struct Lesson {
 /* A lesson's main: reads the command line, does it, and returns the program's exit status. */
 int lesson_run(const Lesson *lesson, int argc, char **argv);
 
-/* The scale of a height map: --scale, or what its file says, or 0.1. Its base: what the file says, or 1. */
+/* The scale of a height map: --scale, or what its file says, or 0.1; the program ends if it is not 0 to
+ * SCALE_MAX, where the truth's walk through the texels would take for ever. Its base: what the file says,
+ * or 1. */
 double options_scale(const Options *options, const Image *height);
 
 /* How many techniques, views, scenes and knob values there are (a technique without a knob has one value, 0).

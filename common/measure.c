@@ -166,7 +166,7 @@ static void report_lookup(Session *session, const Frame *frame, const Picture *p
                           const Reference *reference) {
     Vec2 texels = frame->scene->texels(frame->data);
     size_t count = (size_t)frame->width * frame->height, both = 0, mismatch = 0, known = 0;
-    double sum = 0.0, largest = 0.0;
+    double sum = 0.0, largest = 0.0, depth_sum = 0.0;
     for (size_t i = 0; i < count; i++) {
         const float *lookup = picture->lookup.pixels + 4 * i;
         const Sample *exact = &reference->centres[i];
@@ -178,6 +178,7 @@ static void report_lookup(Session *session, const Frame *frame, const Picture *p
         both++;
         sum += du * du + dv * dv;
         largest = fmax(largest, du * du + dv * dv);
+        depth_sum += (lookup[2] - exact->depth) * (lookup[2] - exact->depth);
     }
     if (!both)
         fail("%s/%s: no pixel of the picture looks anything up that the truth hits", frame->scene->name,
@@ -185,6 +186,7 @@ static void report_lookup(Session *session, const Frame *frame, const Picture *p
     const char *view = frame->view->name;
     table_row(session->table, view, "uv_error_texels_rms", sqrt(sum / (double)both), "texels");
     table_row(session->table, view, "uv_error_texels_max", sqrt(largest), "texels");
+    table_row(session->table, view, "depth_error_rms", sqrt(depth_sum / (double)both), "world units");
     table_row(session->table, view, "coverage_error_percent", 100.0 * (double)mismatch / (double)known, "%");
 }
 
@@ -423,6 +425,7 @@ static int count_steps(const Scene *scene, const Choice *choice, const Orders *o
     choose_variants(&session);
     int view_count = choose_views(scene, choice, views), wanted = 0, steps = view_count;
     for (int v = 0; v < session.variant_count; v++) wanted += session.variants[v].wanted;
+    if (!wanted) return 0;
     if (orders->render || orders->errors || orders->measure) steps += view_count * wanted;
     const Variant *flickering[VARIANTS_MAX];
     int timed[VARIANTS_MAX];
@@ -438,9 +441,11 @@ void measure_all(const Lesson *lesson, const Options *options, const Choice *cho
     for (int i = 0; i < scene_count(lesson); i++)
         if (scene_chosen(choice, &lesson->scenes[i]))
             progress.total += count_steps(&lesson->scenes[i], choice, orders);
+    if (!progress.total) fail_usage("nothing is chosen: no scene has all that was asked for");
     Table *table = orders->measure ? table_create(lesson->name) : NULL;
     for (int i = 0; i < scene_count(lesson); i++) {
         if (!scene_chosen(choice, &lesson->scenes[i])) continue;
+        if (!count_steps(&lesson->scenes[i], choice, orders)) continue;
         Session *session = allocate(1, sizeof *session);
         session->stage = stage_open(lesson, &lesson->scenes[i], options);
         session->choice = choice;

@@ -193,6 +193,7 @@ static void set_uniforms(const Frame *frame) {
     } else {
         Vec3 toward = vec3_normalize(vec3_sub(camera->eye, camera->target));
         program_vector(program, "eye", toward.x, toward.y, toward.z, 0.0);
+        program_number(program, "eye_plane", vec3_dot(camera->eye, toward)); /* how far the eye is that way */
     }
     program_number(program, "knob", frame->knob);
     program_integer(program, "variant", frame->technique->variant);

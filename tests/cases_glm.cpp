@@ -9,6 +9,8 @@
  *   CASE_FLIP("name", jump, "unit", expression)
  *       A case on a comparison, where float and double may take different branches: these differ by at most
  *       the jump.
+ *   CASE_EQUALS("name", bound, "unit", expected, expression)
+ *       A case whose value is known by hand: both float evaluations are held against it.
  *   CASE_TEXTURE(name, width, height, expression)
  *       A sampler2D for the cases below it, bilinear and repeating. The texel (x, y) is what the expression
  *       (C++ and GLSL's vectors) says of the ints x and y, a number or a vec4, rounded to 32 bits.
@@ -18,14 +20,15 @@
  *   CASE_GLSL(function)
  *       A function for the cases below it, where a case needs more than one call. It gets no row of its own.
  *
- * A case says how stable the arithmetic is, not whether it is right: that the pictures and their truth say.
- * An input like 0.1 is rounded in float, not in double, and the bound has to count that; 0.125 is the same in
- * both. A name may not hold a comma. */
+ * A CASE says how stable the arithmetic is, not whether it is right: that CASE_EQUALS, the pictures and their
+ * truth say. An input like 0.1 is rounded in float, not in double, and the bound has to count that; 0.125 is
+ * the same in both. A name may not hold a comma. */
 #include "glsl.hpp" /* first, for it is precompiled */
 
 /* Once as definitions ... */
 #define CASE(...)
 #define CASE_FLIP(...)
+#define CASE_EQUALS(...)
 #define CASE_TEXTURE_OF(sampler, width, height, mipped, ...)                                                 \
     static CaseTexture texture_##sampler = {width,                                                           \
                                             height,                                                          \
@@ -50,6 +53,7 @@ namespace CASES_NAMESPACE {
 /* ... and once as the table. */
 #undef CASE
 #undef CASE_FLIP
+#undef CASE_EQUALS
 #undef CASE_TEXTURE
 #undef CASE_TEXTURE_MIPPED
 #undef CASE_GLSL
@@ -57,6 +61,12 @@ namespace CASES_NAMESPACE {
     {name, nullptr, text, unit, bound, flip, [] { return case_value(__VA_ARGS__); }},
 #define CASE(name, bound, unit, ...) CASE_OF(name, bound, unit, false, #__VA_ARGS__, __VA_ARGS__)
 #define CASE_FLIP(name, jump, unit, ...) CASE_OF(name, jump, unit, true, #__VA_ARGS__, __VA_ARGS__)
+#ifdef CASES_DOUBLE
+#define CASE_EQUALS(name, bound, unit, expected, ...)                                                        \
+    CASE_OF(name, bound, unit, false, #__VA_ARGS__, expected)
+#else
+#define CASE_EQUALS(name, bound, unit, expected, ...) CASE(name, bound, unit, __VA_ARGS__)
+#endif
 #define CASE_TEXTURE(sampler, ...) {#sampler, &texture_##sampler, "", "", 0, false, nullptr},
 #define CASE_TEXTURE_MIPPED CASE_TEXTURE
 #define CASE_GLSL(...) {"", nullptr, #__VA_ARGS__, "", 0, false, nullptr},

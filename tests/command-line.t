@@ -4,7 +4,7 @@ use strict;
 use warnings;
 use Test::More;
 use File::Temp qw(tempdir);
-use File::Copy qw(copy);
+use Compress::Zlib qw(crc32);
 
 my $lesson = 'build/14-parallax';
 my $temp   = tempdir(CLEANUP => 1);
@@ -17,8 +17,8 @@ sub run { # status and what was said on both outputs
 }
 
 sub refuses { # the command ends with the status and one line that holds the pattern
-    my ($status, $pattern, $arguments) = @_;
-    my ($got, $said) = run("$lesson $arguments");
+    my ($status, $pattern, $arguments, $program) = @_;
+    my ($got, $said) = run(($program // $lesson) . " $arguments");
     my $lines = () = $said =~ /\n/g;
     ok($got == $status && $lines == 1 && $said =~ $pattern, "$arguments: status $status, one line with $pattern")
         or diag "status $got: $said";
@@ -72,6 +72,27 @@ refuses(1, qr/nan\.hdr|nan\.pfm/, "$small --render $temp/out --height "
 refuses(1, qr/tall\.pfm/, "$small --render $temp/out --height "
     . file('tall.pfm', "Pf\n2 2\n-1.0\n" . pack('f<4', 0.5, 3, 0.5, 0.5)));
 is_deeply([glob("$temp/out/* $temp/out/.[!.]*")], [], 'nothing was written by what failed');
+
+refuses(1, qr/text\.png/, '--technique nearest --size 8x8 --scene photo --render ' . "$temp/out --colour $temp/text.png", 'build/05-mipmapping');
+refuses(2, qr/--nonsense/, '--nonsense', 'build/04-perspective');
+refuses(2, qr/--scale 1e6/, '--scale 1e6 --list');
+refuses(2, qr/nothing is chosen/, "--technique distortion-map --view 85 --render $temp/out");
+
+# ---- A height map's own base: the polygon is at the top of brick-height.png, and at the bottom of this one ----
+my $bottom = bytes('build/assets/brick-height.png');
+my $chunk  = "tEXttexel:base\0";
+my $at     = index $bottom, $chunk . '1';
+ok($at > 0, 'brick-height.png says its base');
+substr($bottom, $at + length $chunk, 1) = '0';
+substr($bottom, $at + length($chunk) + 1, 4) = pack 'N', crc32(substr $bottom, $at, length($chunk) + 1);
+file('bottom.png', $bottom);
+my ($listed, $list) = run("$lesson --list --scene brick --height $temp/bottom.png");
+like($list, qr/^  base_of_file 0$/m, '--list says the base of the file');
+run("$lesson --scene brick --technique per-pixel --view 60 --size 32x24 --height $_->[0] --render $temp/$_->[1]")
+    for ['build/assets/brick-height.png', 'top'], ["$temp/bottom.png", 'bottom'];
+run("$lesson --scene bottom --technique per-pixel --view 60 --size 32x24 --render $temp/bottom");
+my @picture = map { bytes("$temp/$_.png") } qw(top/brick-60-per-pixel bottom/brick-60-per-pixel bottom/bottom-60-per-pixel);
+ok($picture[0] ne $picture[1] && $picture[1] eq $picture[2], 'and the polygon lies there');
 
 # ---- Where to write ----
 my $blocked = file('a-file', 'x');

@@ -19,10 +19,12 @@ CASE("no scale", 0, "widths", displacement(0.3, 0.0, 1.0))
 // 2 u |v|: 8 u |v|
 
 CASE("along the axes", 0, "", to_polygon(vec3(0.5, 0.25, 1.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), 1.0))
-CASE("mirrored", 0, "", to_polygon(vec3(0.5, 0.25, 1.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), -1.0))
-CASE("turned", 8 * 0x1p-24, "", to_polygon(vec3(0.48, 0.64, 0.6), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), 1.0))
-CASE("turned and mirrored", 8 * 0x1p-24, "",
-     to_polygon(vec3(0.48, 0.64, 0.6), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), -1.0))
+CASE_EQUALS("mirrored", 0, "", vec3(0.5, -0.25, 1.0),
+            to_polygon(vec3(0.5, 0.25, 1.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), -1.0))
+CASE_EQUALS("turned", 8 * 0x1p-24, "", vec3(0.024, 0.64, 0.768),
+            to_polygon(vec3(0.48, 0.64, 0.6), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), 1.0))
+CASE_EQUALS("turned and mirrored", 8 * 0x1p-24, "", vec3(0.024, -0.64, 0.768),
+            to_polygon(vec3(0.48, 0.64, 0.6), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), -1.0))
 CASE("in the plane: z cancels", 8 * 0x1p-24, "",
      to_polygon(vec3(0.8, 0.0, -0.6), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), 1.0))
 CASE("no vector", 0, "", to_polygon(vec3(0.0), vec3(0.6, 0.0, 0.8), vec3(0.8, 0.0, -0.6), 1.0))

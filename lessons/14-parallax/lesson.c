@@ -55,11 +55,11 @@
 
 /* ---- The scenes ---- */
 
-#define WALL(base) \
+#define WALL(base, base_says) \
     .unload = wall_unload, .draw = wall_draw, .truth = wall_truth, .texels = wall_texels, \
     .background = {0.02, 0.02, 0.02}, \
     .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
-              {"base", base, "height of the polygon"}}
+              {"base", base, "height of the polygon, " base_says}}
 #define ROUND \
     .unload = prism_unload, .draw = prism_draw, .truth = prism_truth, .texels = prism_texels, \
     .background = {0.02, 0.02, 0.02}, .samples = 8
@@ -77,15 +77,15 @@ static const Lesson lesson = {
                         ITERATED(4, 16)},
          .views = {FRONT, {"30", WALL_30}, {"60", WALL_60}, NEAR}, .colour = "brick-colour.png",
          .height = "brick-height.png", .path = {WALL_30, ORTHOGRAPHIC(2.5, 0, 3.1224989991991992, 0.64)},
-         .load = wall_load, .samples = 18, .measure = wall_measure, WALL(1)},
+         .load = wall_load, .samples = 18, .measure = wall_measure, WALL(1, "unless base_of_file says otherwise")},
         {"bottom", "the same wall standing on its polygon (base 0)",
          .techniques = {PLAIN, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)}, .views = {{"60", WALL_60}, NEAR},
          .colour = "brick-colour.png", .height = "brick-height.png", .load = wall_load_bottom, .samples = 18,
-         .measure = wall_measure, WALL(0)},
+         .measure = wall_measure, WALL(0, "whatever base_of_file says")},
         {"soft", "gentle waves, where the iteration contracts up to an angle of 73 degrees",
          .techniques = {PLAIN, PER_PIXEL, ITERATED(2, 4, 8, 16)},
          .views = {{"30", WALL_30}, {"60", WALL_60}, {"82", WALL_82}, NEAR}, .colour = "uv-grid.png",
-         .height = "soft-height.png", .load = wall_load, .samples = 8, .measure = wall_measure, WALL(1)},
+         .height = "soft-height.png", .load = wall_load, .samples = 8, .measure = wall_measure, WALL(1, "unless base_of_file says otherwise")},
         {"cylinder", "eight sides below the joint, 32 plain ones above (the paper's Figure 6)",
          .techniques = {PLAIN, PARALLAX, PER_PIXEL, ITERATED(4)},
          .views = {CYLINDER_CORNER, CYLINDER_FACE, ABOVE}, .colour = "uv-grid.png",
@@ -105,7 +105,7 @@ static const Lesson lesson = {
          .techniques = {PLAIN, PARALLAX, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)},
          .views = {EYE("left", -0.0615), EYE("right", 0.0615)}, .colour = "stereo-colour.png",
          .height = "stereo-height.exr", .other = {"stereo-mask.png"}, .load = wall_load, .samples = 18,
-         .measure = stereo_measure, WALL(1)},
+         .measure = stereo_measure, WALL(1, "unless base_of_file says otherwise")},
     }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }
