@@ -91,7 +91,7 @@ void image_sample(const Image *image, double u, double v, double *out) {
 static const ImageFiles *files;
 
 static void load_files(void) {
-    void *library = dlopen("libtexel-files.so", RTLD_NOW); /* found beside libtexel.so */
+    void *library = dlopen("libtexel-files.so", RTLD_LAZY); /* found beside libtexel.so */
     if (library) files = dlsym(library, "image_files");
     if (!files) fail("%s", dlerror());
 }

@@ -60,20 +60,15 @@ ok($status == 0 && $help =~ /--measure/, '--help helps');
 # ---- Files ----
 my $small = '--scene brick --technique plain --view front --size 8x8';
 my $png   = bytes('build/assets/brick-colour.png');
-my %bad   = ( # test_image.c has them all
-    'text.png'      => "this is no image\n",
-    'truncated.png' => substr($png, 0, length($png) / 2),
-    'huge.png' => "\x89PNG\r\n\x1a\n" . pack('N', 13) . 'IHDR' . pack('NNCCCCC', 1e6, 1e6, 8, 2, 0, 0, 0) . pack('N', 0x3ee62b6e),
-);
-refuses(1, qr/\Q$_\E/, "$small --render $temp/out --colour " . file($_, $bad{$_})) for sort keys %bad;
+my $half  = file('truncated.png', substr $png, 0, length($png) / 2); # test_image.c has all that can be wrong
+refuses(1, qr/truncated\.png/, "$small --render $temp/out --colour $half");
+refuses(1, qr/truncated\.png/, "--technique nearest --size 8x8 --scene photo --render $temp/out --colour $half",
+    'build/05-mipmapping');
 refuses(1, qr/missing\.png/, "$small --render $temp/out --height $temp/missing.png");
-refuses(1, qr/nan\.hdr|nan\.pfm/, "$small --render $temp/out --height "
-    . file('nan.pfm', "Pf\n2 2\n-1.0\n" . pack('f<4', 0.5, 'nan', 0.5, 0.5)));
 refuses(1, qr/tall\.pfm/, "$small --render $temp/out --height "
     . file('tall.pfm', "Pf\n2 2\n-1.0\n" . pack('f<4', 0.5, 3, 0.5, 0.5)));
 is_deeply([glob("$temp/out/* $temp/out/.[!.]*")], [], 'nothing was written by what failed');
 
-refuses(1, qr/text\.png/, '--technique nearest --size 8x8 --scene photo --render ' . "$temp/out --colour $temp/text.png", 'build/05-mipmapping');
 refuses(2, qr/--nonsense/, '--nonsense', 'build/04-perspective');
 refuses(2, qr/--scale 1e6/, '--scale 1e6 --list');
 refuses(2, qr/nothing is chosen/, "--technique distortion-map --view 85 --render $temp/out");
@@ -90,9 +85,8 @@ my ($listed, $list) = run("$lesson --list --scene brick --height $temp/bottom.pn
 like($list, qr/^  base_of_file 0$/m, '--list says the base of the file');
 run("$lesson --scene brick --technique per-pixel --view 60 --size 32x24 --height $_->[0] --render $temp/$_->[1]")
     for ['build/assets/brick-height.png', 'top'], ["$temp/bottom.png", 'bottom'];
-run("$lesson --scene bottom --technique per-pixel --view 60 --size 32x24 --render $temp/bottom");
-my @picture = map { bytes("$temp/$_.png") } qw(top/brick-60-per-pixel bottom/brick-60-per-pixel bottom/bottom-60-per-pixel);
-ok($picture[0] ne $picture[1] && $picture[1] eq $picture[2], 'and the polygon lies there');
+ok(bytes("$temp/top/brick-60-per-pixel.png") ne bytes("$temp/bottom/brick-60-per-pixel.png"),
+    'and the polygon lies there');
 
 # ---- Where to write ----
 my $blocked = file('a-file', 'x');
