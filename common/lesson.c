@@ -42,6 +42,8 @@ int knob_count(const Technique *technique) {
     return technique->knob.name ? count : 1;
 }
 
+int scene_samples(const Scene *scene) { return scene->samples ? scene->samples : SAMPLES; }
+
 static double first_number(double a, double b, double c) { return !isnan(a) ? a : !isnan(b) ? b : c; }
 
 double options_scale(const Options *options, const Image *height) {
@@ -132,9 +134,9 @@ static void print_help(const Lesson *lesson) {
            "                         Ho (orthographic: the height that it shows), and ,UX,UY,UZ (up) follow\n"
            "   --size WxH            pixels, 1 to %d a side; 640x480 without it\n"
            "   --colour FILE --height FILE --scale X\n"
-           "                         your own images; the height's range in texture widths\n"
+           "                         your own images; the height's range in texture widths, 0 to %d\n"
            "   --help                this\n",
-           lesson->name, lesson->title, program_invocation_name, IMAGE_SIDE_MAX);
+           lesson->name, lesson->title, program_invocation_name, IMAGE_SIDE_MAX, SCALE_MAX);
 }
 
 static double parse_number(const char *option, const char *argument, double least, double most) {

@@ -134,4 +134,7 @@ int view_count(const Scene *scene);
 int scene_count(const Lesson *lesson);
 int knob_count(const Technique *technique);
 
+/* The rays a pixel of a scene's truth. */
+int scene_samples(const Scene *scene);
+
 #endif

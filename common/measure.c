@@ -85,8 +85,6 @@ static Frame frame_of(const Session *session, const Variant *variant, const View
                        session->choice->height);
 }
 
-static int samples_of(const Scene *scene) { return scene->samples ? scene->samples : SAMPLES; }
-
 /* How exact the exact pictures are that were asked for. */
 static void report_reference(Session *session, const Reference *reference) {
     static const char *const metrics[] = {"truth_rmse", "truth_rmse_gaussian"};
@@ -263,8 +261,8 @@ static void measure_flicker(Session *session) {
     float *before = allocate(count * (size_t)variant_count, sizeof(float));
     for (int k = 0; k < PATH_FRAMES; k++) {
         view.camera = camera_mix(&scene->path[0], &scene->path[1], k / (PATH_FRAMES - 1.0));
-        Exact exact =
-            truth_render(&session->stage.truth, &view.camera, width, height, samples_of(scene), FILTER_BOX);
+        Exact exact = truth_render(&session->stage.truth, &view.camera, width, height, scene_samples(scene),
+                                   FILTER_BOX);
         for (int v = 0; v < variant_count; v++) {
             Frame frame =
                 stage_frame(&session->stage, variants[v]->technique, variants[v]->knob, &view, width, height);
@@ -405,7 +403,7 @@ static void measure_scene(Session *session) {
     choose_variants(session);
     for (int i = 0; i < session->view_count; i++) {
         session->references[i] = reference_create(&session->stage.truth, views[i], session->choice->width,
-                                                  session->choice->height, samples_of(scene));
+                                                  session->choice->height, scene_samples(scene));
         if (orders->truth) save_reference(session, &session->references[i]);
         progress_step(session->stage.lesson, "truth");
     }

@@ -1,6 +1,12 @@
 /* Where a ray meets each of the exact shapes: see truth.h. */
 #include "truth.h"
 
+Vec3 truth_colour(const Image *image, double u, double v) {
+    double c[4];
+    image_sample(image, u, v, c);
+    return image->channels < 3 ? v3(c[0], c[0], c[0]) : v3(c[0], c[1], c[2]);
+}
+
 Sample truth_plane(Ray ray, double width, double height) {
     double t = -ray.origin.z / ray.direction.z; /* not finite for a ray within the plane */
     Vec3 p = ray_at(ray, t);

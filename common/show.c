@@ -112,7 +112,7 @@ static void close_scene(Show *show) {
 /* The scene, with the technique and the view of those names if it has them, else with its first. */
 static void open_scene(Show *show, const Scene *scene, const char *technique, const char *view) {
     show->stage = stage_open(show->lesson, scene, show->options);
-    show->refiner = refiner_create(&show->stage.truth, scene->samples ? scene->samples : SAMPLES, show->wake);
+    show->refiner = refiner_create(&show->stage.truth, scene_samples(scene), show->wake);
     for (int i = 0; i < technique_count(scene); i++)
         show->knobs[i] = scene->techniques[i].knob.name ? scene->techniques[i].knob.values[0] : 0.0;
     int same_technique = find_technique(scene, technique), same_view = find_view(scene, view);

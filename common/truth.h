@@ -44,6 +44,9 @@ Exact truth_render(const Truth *truth, const Camera *camera, int width, int heig
  */
 Sample *truth_centres(const Truth *truth, const Camera *camera, int width, int height);
 
+/* The colour of an image at (u, v), as image_sample has it; one channel is grey. */
+Vec3 truth_colour(const Image *image, double u, double v);
+
 /* ---- Shapes that rays meet in closed form ---- */
 
 /* The rectangle of mesh_plane: width x height around the origin, z = 0. A hit has u, v over 0..1 and depth.

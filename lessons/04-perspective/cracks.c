@@ -94,11 +94,7 @@ Sample cracks_truth(const void *data, Ray ray) {
         sample.u = (sample.u - 0.5) * 360 / ARC_DEGREES + 0.5;
         if (sample.u < 0 || sample.u > 1) return (Sample){0};
     }
-    double rgb[3];
-    if (sample.hit) {
-        image_sample(&surface->image, sample.u, sample.v, rgb);
-        sample.colour = v3(rgb[0], rgb[1], rgb[2]);
-    }
+    if (sample.hit) sample.colour = truth_colour(&surface->image, sample.u, sample.v);
     return sample;
 }
 

@@ -76,12 +76,10 @@ void square_paint(const Frame *frame, Picture *picture) {
 Sample square_truth(const void *data, Ray ray) {
     const Square *square = data;
     Sample sample = truth_plane(ray, square->side, square->side);
-    double rgb[3];
     if (sample.hit) {
         sample.u = square->first + square->repeats * sample.u;
         sample.v = square->first + square->repeats * sample.v;
-        image_sample(&square->image, sample.u, sample.v, rgb);
-        sample.colour = v3(rgb[0], rgb[1], rgb[2]);
+        sample.colour = truth_colour(&square->image, sample.u, sample.v);
     }
     return sample;
 }

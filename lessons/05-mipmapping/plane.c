@@ -149,8 +149,6 @@ Sample plane_truth(const void *data, Ray ray) {
     if (!(t > 0.0) || isinf(t)) return (Sample){0};
     Vec3 p = ray_at(ray, t);
     Sample sample = {.u = p.x + 0.5, .v = p.y / plane->aspect + 0.5, .depth = t, .hit = true};
-    double rgb[4];
-    image_sample(&plane->image, sample.u, sample.v, rgb);
-    sample.colour = plane->image.channels == 1 ? v3(rgb[0], rgb[0], rgb[0]) : v3(rgb[0], rgb[1], rgb[2]);
+    sample.colour = truth_colour(&plane->image, sample.u, sample.v);
     return sample;
 }

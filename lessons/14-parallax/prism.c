@@ -168,11 +168,9 @@ void prism_draw(const Frame *frame) {
 Sample prism_truth(const void *data, Ray ray) {
     const Round *round = data;
     Sample sample = truth_cylinder(ray, 1.0, CYLINDER_HEIGHT);
-    double rgb[3];
     if (sample.hit) {
         sample.v *= CYLINDER_HEIGHT / (2.0 * PI);
-        image_sample(&round->colour_image, sample.u, sample.v, rgb);
-        sample.colour = v3(rgb[0], rgb[1], rgb[2]);
+        sample.colour = truth_colour(&round->colour_image, sample.u, sample.v);
     }
     return sample;
 }

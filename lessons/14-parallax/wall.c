@@ -114,10 +114,8 @@ static bool unknown_at(const Wall *wall, double u, double v) {
 Sample wall_truth(const void *data, Ray ray) {
     const Wall *wall = data;
     Sample sample = truth_relief(&wall->relief, ray);
-    double rgb[3];
     if (sample.hit) {
-        image_sample(&wall->colour_image, sample.u, sample.v, rgb);
-        sample.colour = v3(rgb[0], rgb[1], rgb[2]);
+        sample.colour = truth_colour(&wall->colour_image, sample.u, sample.v);
         sample.unknown = unknown_at(wall, sample.u, sample.v);
     }
     return sample;
