@@ -30,6 +30,7 @@
     X(LINKPROGRAM, LinkProgram) X(PIXELSTOREI, PixelStorei) X(READBUFFER, ReadBuffer) \
     X(READPIXELS, ReadPixels) X(RENDERBUFFERSTORAGE, RenderbufferStorage) X(SCISSOR, Scissor) \
     X(SHADERSOURCE, ShaderSource) X(TEXIMAGE2D, TexImage2D) X(TEXPARAMETERI, TexParameteri) \
+    X(TEXSUBIMAGE2D, TexSubImage2D) \
     X(UNIFORM1F, Uniform1f) X(UNIFORM1I, Uniform1i) X(UNIFORM4F, Uniform4f) \
     X(UNIFORMMATRIX3FV, UniformMatrix3fv) X(UNIFORMMATRIX4FV, UniformMatrix4fv) X(USEPROGRAM, UseProgram) \
     X(VERTEXATTRIBPOINTER, VertexAttribPointer) X(VIEWPORT, Viewport)

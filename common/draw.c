@@ -61,6 +61,27 @@ Texture texture_of(const Image *image, ImageKind kind) {
     return texture_create(image, 1, format, TEXTURE_LINEAR);
 }
 
+Texture texture_empty(int width, int height, TextureFormat format, TextureFilter filter) {
+    Texture texture = {.width = width, .height = height, .levels = 1};
+    gl.GenTextures(1, &texture.id);
+    gl.BindTexture(GL_TEXTURE_2D, texture.id);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_filter(filter);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, format == TEXTURE_SRGBA8 ? GL_SRGB8_ALPHA8 : GL_RGBA16, width, height, 0,
+                  GL_RGBA, format == TEXTURE_SRGBA8 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT, NULL);
+    draw_check("making an empty texture");
+    return texture;
+}
+
+void texture_write(const Texture *texture, TextureFormat format, const void *texels) {
+    gl.BindTexture(GL_TEXTURE_2D, texture->id);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texture->width, texture->height, GL_RGBA,
+                     format == TEXTURE_SRGBA8 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT, texels);
+    draw_check("writing a texture");
+}
+
 void texture_mipmap(Texture *texture) {
     gl.BindTexture(GL_TEXTURE_2D, texture->id);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1000);

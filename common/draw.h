@@ -39,9 +39,12 @@ void program_matrix(const Program *program, const char *name, const float *colum
 /* ---- Textures ---- */
 
 typedef enum {
-    TEXTURE_SRGB8, /* three channels, linear floats outside, eight bits of sRGB inside */
-    TEXTURE_R16,   /* one channel of 0..1 in sixteen bits, which hold eight exactly too */
-    TEXTURE_FLOAT  /* one to four channels of 32-bit floats */
+    TEXTURE_SRGB8,  /* three channels, linear floats outside, eight bits of sRGB inside */
+    TEXTURE_R16,    /* one channel of 0..1 in sixteen bits, which hold eight exactly too */
+    TEXTURE_FLOAT,  /* one to four channels of 32-bit floats */
+    TEXTURE_SRGBA8, /* for texture_write alone: four bytes a texel, red, green, blue in sRGB, and alpha as it
+                       is */
+    TEXTURE_RGBA16  /* for texture_write alone: four 16-bit numbers a texel */
 } TextureFormat;
 
 typedef enum { TEXTURE_NEAREST, TEXTURE_LINEAR, TEXTURE_MIP_NEAREST, TEXTURE_TRILINEAR } TextureFilter;
@@ -58,6 +61,12 @@ Texture texture_create(const Image *levels, int count, TextureFormat format, Tex
 /* What a lesson wants most: one level, bilinear, and what the file held, exactly. A colour image of 8 bits
  * becomes TEXTURE_SRGB8, a height of 8 or 16 bits TEXTURE_R16, anything else TEXTURE_FLOAT. */
 Texture texture_of(const Image *image, ImageKind kind);
+
+/* A texture that is written again and again: texels that C has made, packed as the format says, row 0 first.
+ * It does not repeat: beyond its edges the outermost texels go on. What it holds before is not defined. */
+Texture texture_empty(int width, int height, TextureFormat format, TextureFilter filter);
+void texture_write(const Texture *texture, TextureFormat format, const void *texels);
+
 void texture_mipmap(Texture *texture); /* glGenerateMipmap, and TEXTURE_TRILINEAR */
 void texture_destroy(Texture *texture);
 

@@ -16,7 +16,8 @@ Image image_create(int width, int height, int channels) {
         fail("an image of %dx%d pixels: a side must be 1 to %d", width, height, IMAGE_SIDE_MAX);
     if (channels < 1 || channels > 4) fail("an image of %d channels: there must be 1 to 4", channels);
     float *pixels = allocate((size_t)width * height, channels * sizeof(float));
-    return (Image){width, height, channels, .bits = 32, .scale = NAN, .base = NAN, .pixels = pixels};
+    return (Image){width,        height,      channels,         .bits = 32,
+                   .scale = NAN, .base = NAN, .basis.a.x = NAN, .pixels = pixels};
 }
 
 void image_destroy(Image *image) {

@@ -6,13 +6,26 @@
 #ifndef TEXEL_IMAGE_H
 #define TEXEL_IMAGE_H
 
+#include "vec.h"
+
 #include <stdbool.h>
 #include <stddef.h>
+
+/* Where a relief texture lies in its own world, so that a height has a unit: the texel coordinates (u, v)
+ * with height h are the point origin + u a + v b + scale |a| (h - base) f/|f|, u and v over 0..1. a, b and f
+ * are the vectors of Oliveira, Bishop and McAllister 2000, a and b here over the whole image. unit names what
+ * they are measured in ("m", "mm"), "" where the file says none. */
+typedef struct {
+    Vec3 origin, a, b, f;
+    char unit[16];
+} Basis;
 
 typedef struct {
     int width, height, channels; /* 1..IMAGE_SIDE_MAX a side, 1..4 channels */
     int bits;                    /* of the file's samples: 8 or 16 (integers), 32 (floats) */
     double scale, base;          /* of a height map (see below); NAN when the file does not say */
+    Basis basis;                 /* of a relief texture's height; a.x is NAN when the file does not say */
+    bool hollow;                 /* of a relief texture's height: a height of 0 is no surface at all */
     float *pixels;               /* height * width * channels floats; image_destroy frees them */
 } Image;
 
@@ -21,7 +34,8 @@ enum { IMAGE_SIDE_MAX = 16384 };
 /* How the numbers of a file become floats. */
 typedef enum {
     IMAGE_COLOUR, /* three channels of linear light: sRGB is decoded, grey is copied, alpha is dropped */
-    IMAGE_HEIGHT, /* the first channel alone, as it is stored (0..1 for integers), with scale and base */
+    IMAGE_HEIGHT, /* the first channel alone, or a relief texture's fourth, as it is stored (0..1 for
+                     integers), with scale, base, basis and hollow */
     IMAGE_RAW     /* every channel as it is stored (0..1 for integers) */
 } ImageKind;
 
@@ -48,6 +62,13 @@ const char *image_write(const Image *image, const char *path);
 /* Writes raw numbers, without sRGB: .png of bits 8 or 16 (clipped to 0..1, rounded to nearest), .exr of
  * floats. A scale and base that are not NAN are stored as the string attributes texel:scale, texel:base. */
 const char *image_write_raw(const Image *image, const char *path, int bits);
+
+/* Writes a relief texture: one file of four channels, colour (three of linear light) and height (one channel
+ * of the same size, clipped to 0..1), .png of bits 8 or 16 (colours are sRGB there) or .exr of floats. The
+ * height's scale, base, basis and hollow go along as the string attributes texel:relief (the version, 1),
+ * texel:scale, texel:base, texel:basis (twelve numbers: origin, a, b, f), texel:unit and texel:hollow.
+ * image_read reads such a file as IMAGE_COLOUR and as IMAGE_HEIGHT. NULL or the reason, as above. */
+const char *image_write_relief(const Image *colour, const Image *height, const char *path, int bits);
 
 /* The same, ending the program with "PATH: reason" instead of returning one. */
 Image image_load(const char *path, ImageKind kind);

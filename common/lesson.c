@@ -119,6 +119,12 @@ static void list(const Lesson *lesson, const Options *options, const Choice *cho
 
 /* ---- The command line ---- */
 
+/* The size of pictures without --size. */
+static Choice lesson_size(const Lesson *lesson) {
+    return lesson->width ? (Choice){.width = lesson->width, .height = lesson->height}
+                         : (Choice){.width = 640, .height = 480};
+}
+
 static void print_help(const Lesson *lesson) {
     printf("%s: %s\n\n"
            "%s                      a window; H there lists its keys\n"
@@ -128,15 +134,17 @@ static void print_help(const Lesson *lesson) {
            "   --errors DIR          the differences: DIR/SCENE-VIEW-TECHNIQUE[-KNOB]-error.png\n"
            "   --measure FILE.csv    the table of speed and error; its curves in FILE-curves.csv\n"
            "   --only FILE.csv       measure only the rows that it names, as an expect.csv does\n"
+           "   --brief               measure extra views, but picture and time the main ones alone\n"
            "   --scene S --technique T --knob K --view V\n"
            "                         narrow those, or set the window's first state; a view may be a camera:\n"
            "                         EX,EY,EZ,TX,TY,TZ,F (eye, target, vertical angle in degrees); F may be\n"
            "                         Ho (orthographic: the height that it shows), and ,UX,UY,UZ (up) follow\n"
-           "   --size WxH            pixels, 1 to %d a side; 640x480 without it\n"
+           "   --size WxH            pixels, 1 to %d a side; %dx%d without it\n"
            "   --colour FILE --height FILE --scale X\n"
            "                         your own images; the height's range in texture widths, 0 to %d\n"
            "   --help                this\n",
-           lesson->name, lesson->title, program_invocation_name, IMAGE_SIDE_MAX, SCALE_MAX);
+           lesson->name, lesson->title, program_invocation_name, IMAGE_SIDE_MAX, lesson_size(lesson).width,
+           lesson_size(lesson).height, SCALE_MAX);
 }
 
 static double parse_number(const char *option, const char *argument, double least, double most) {
@@ -242,19 +250,28 @@ static int finish_printing(void) {
 
 /* The letters are only these options' names in the switch below; there are no short ones. */
 static const struct option long_options[] = {
-    {"list", no_argument, NULL, 'l'},          {"render", required_argument, NULL, 'r'},
-    {"truth", required_argument, NULL, 't'},   {"errors", required_argument, NULL, 'e'},
-    {"measure", required_argument, NULL, 'm'}, {"only", required_argument, NULL, 'o'},
-    {"scene", required_argument, NULL, 'S'},   {"technique", required_argument, NULL, 'T'},
-    {"knob", required_argument, NULL, 'K'},    {"view", required_argument, NULL, 'V'},
-    {"size", required_argument, NULL, 'W'},    {"colour", required_argument, NULL, 'C'},
-    {"height", required_argument, NULL, 'H'},  {"scale", required_argument, NULL, 'X'},
-    {"help", no_argument, NULL, 'h'},          {0},
+    {"list", no_argument, NULL, 'l'},
+    {"render", required_argument, NULL, 'r'},
+    {"truth", required_argument, NULL, 't'},
+    {"errors", required_argument, NULL, 'e'},
+    {"measure", required_argument, NULL, 'm'},
+    {"only", required_argument, NULL, 'o'},
+    {"scene", required_argument, NULL, 'S'},
+    {"technique", required_argument, NULL, 'T'},
+    {"knob", required_argument, NULL, 'K'},
+    {"view", required_argument, NULL, 'V'},
+    {"size", required_argument, NULL, 'W'},
+    {"colour", required_argument, NULL, 'C'},
+    {"height", required_argument, NULL, 'H'},
+    {"scale", required_argument, NULL, 'X'},
+    {"brief", no_argument, NULL, 'b'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 int lesson_run(const Lesson *lesson, int argc, char **argv) {
     Options options = {.scale = NAN};
-    Choice choice = {.width = 640, .height = 480};
+    Choice choice = lesson_size(lesson);
     Orders orders = {0};
     const char *only = NULL;
     bool listing = false;
@@ -278,6 +295,7 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
         case 'C': options.colour = optarg; break;
         case 'H': options.height = optarg; break;
         case 'X': options.scale = parse_number("--scale", optarg, 0.0, SCALE_MAX); break;
+        case 'b': choice.brief = true; break;
         case 'h': print_help(lesson); return finish_printing();
         case ':': fail_usage("%s: needs a value; --help lists the options", argv[optind - 1]);
         default: fail_usage("%s: no such option; --help lists them", argv[optind - 1]);

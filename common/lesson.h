@@ -19,10 +19,12 @@ typedef struct {
     double scale;                /* --scale, or NAN */
 } Options;
 
-/* A camera by name. */
+/* A camera by name. An extra view is measured like the others, but the report shows no picture of it and
+ * times nothing there: for many directions of one thing. Asked for by --view, it is like any other. */
 typedef struct {
     const char *name;
     Camera camera;
+    bool extra;
 } View;
 
 /* One picture that is being made. */
@@ -91,7 +93,7 @@ void table_add(Table *table, const Shots *shots, const View *view, const char *m
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y);
 
-enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 10, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18, SCALE_MAX = 10 };
+enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 64, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18, SCALE_MAX = 10 };
 
 struct Scene {
     const char *name, *what;
@@ -108,6 +110,9 @@ struct Scene {
     void (*unload)(void *data);
     /* For the shader view_projection, model (identity), eye, eye_plane, knob, variant and size are set. */
     void (*draw)(const Frame *frame);
+    /* What moves by itself (a light): called in a window alone, with the seconds that it has moved for, while
+     * the space bar lets it. Pictures off-screen show it as loaded. NULL: all stands still. */
+    void (*move)(void *data, double seconds);
     Sample (*truth)(const void *data, Ray ray);
     Vec2 (*texels)(
         const void *data); /* width and height of the texture that u and v are errors in; or NULL */
@@ -117,6 +122,7 @@ struct Scene {
 struct Lesson {
     const char *name, *title; /* name: the folder's, NN-name */
     Scene scenes[SCENES_MAX];
+    int width, height; /* of pictures where --size does not say; 0: 640x480 */
 };
 
 /* A lesson's main: reads the command line, does it, and returns the program's exit status. */

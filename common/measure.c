@@ -11,8 +11,9 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { ROUNDS_MIN = 7, ROUNDS_MAX = 41, PATH_FRAMES = 16 };
-static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS_MIN is begun */
+enum { ROUNDS_MIN = 3, ROUNDS = 7, ROUNDS_MAX = 41, PATH_FRAMES = 16 };
+static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS is begun, */
+static const double SLOW_SECONDS = 4.0;  /* and none more than ROUNDS_MIN */
 
 /* One technique with one value of its knob. */
 typedef struct {
@@ -78,6 +79,11 @@ char *picture_name(const Frame *frame) {
     return longer;
 }
 
+/* Whether a view gets pictures and times. */
+static bool is_shown(const Choice *choice, const View *view) {
+    return !view->extra || !choice->brief || choice->view;
+}
+
 /* ---- The references ---- */
 
 static Frame frame_of(const Session *session, const Variant *variant, const View *view) {
@@ -125,7 +131,8 @@ static void report_difference(Session *session, const Variant *variant, Image *p
         {"rmse_gaussian", "psnr_db_gaussian", "max_abs_gaussian", "flip_gaussian"}};
     static const char *const units[] = {"linear", "dB", "linear", "1"};
     const Scene *scene = session->stage.scene;
-    const char *view = reference->view->name, *errors = filter == FILTER_BOX ? session->orders->errors : NULL;
+    const char *view = reference->view->name, *errors = NULL;
+    if (filter == FILTER_BOX && is_shown(session->choice, reference->view)) errors = session->orders->errors;
     bool wanted[4], any = errors != NULL;
     for (int i = 0; i < 4; i++) {
         wanted[i] = wants_row(session, variant, view, names[filter][i]);
@@ -211,7 +218,7 @@ static void measure_errors(Session *session, int v) {
             session->pixels_drawn[v][i] = count_hits(&picture.lookup);
             reference_look(reference);
         }
-        if (session->orders->render) {
+        if (session->orders->render && is_shown(session->choice, reference->view)) {
             char *name = picture_name(&frame);
             save_picture(&picture.colour, session->orders->render, name, "", true);
             free(name);
@@ -327,6 +334,11 @@ static void report_timing(Session *session, int v, int view_index, Timing *timin
         table_row(session->table, view, "prepare_ns_per_pixel", timing->prepare_ns[0] / pixels, "ns");
 }
 
+static bool another_round(int done, double seconds) {
+    return done < ROUNDS_MIN || (done < ROUNDS && seconds < SLOW_SECONDS) ||
+           (done < ROUNDS_MAX && seconds < SPEED_SECONDS);
+}
+
 /* All variants from one view take turns, so that what else the machine does falls on all alike; where frames
  * are short, for more rounds. */
 static void measure_speed(Session *session, int view_index) {
@@ -338,7 +350,7 @@ static void measure_speed(Session *session, int view_index) {
     struct timespec start;
     clock_gettime(CLOCK_MONOTONIC, &start);
     int round = -1; /* which warms up and is not counted */
-    for (; round < ROUNDS_MIN || (round < ROUNDS_MAX && seconds_since(start) < SPEED_SECONDS); round++) {
+    for (; another_round(round, seconds_since(start)); round++) {
         for (int i = 0; i < count; i++) {
             Frame frame = frame_of(session, &session->variants[chosen[i]], view);
             Cost cost = stage_time(&session->stage, &frame, &scratch);
@@ -404,7 +416,8 @@ static void measure_scene(Session *session) {
     for (int i = 0; i < session->view_count; i++) {
         session->references[i] = reference_create(&session->stage.truth, views[i], session->choice->width,
                                                   session->choice->height, scene_samples(scene));
-        if (orders->truth) save_reference(session, &session->references[i]);
+        if (orders->truth && is_shown(session->choice, views[i]))
+            save_reference(session, &session->references[i]);
         progress_step(session->stage.lesson, "truth");
     }
     if (orders->render || orders->errors || orders->measure)
@@ -412,7 +425,8 @@ static void measure_scene(Session *session) {
             if (session->variants[v].wanted) measure_errors(session, v);
     if (!orders->measure) return;
     measure_flicker(session);
-    for (int i = 0; i < session->view_count; i++) measure_speed(session, i);
+    for (int i = 0; i < session->view_count; i++)
+        if (is_shown(session->choice, views[i])) measure_speed(session, i);
     for (int i = 0; i < session->view_count; i++) report_reference(session, &session->references[i]);
 }
 
@@ -428,7 +442,8 @@ static int count_steps(const Scene *scene, const Choice *choice, const Orders *o
     const Variant *flickering[VARIANTS_MAX];
     int timed[VARIANTS_MAX];
     if (choose_for_flicker(&session, flickering)) steps += PATH_FRAMES;
-    for (int i = 0; i < view_count; i++) steps += choose_for_speed(&session, views[i]->name, timed) > 0;
+    for (int i = 0; i < view_count; i++)
+        steps += is_shown(choice, views[i]) && choose_for_speed(&session, views[i]->name, timed) > 0;
     return steps;
 }
 

@@ -12,6 +12,7 @@ typedef struct {
     double knob;
     int width, height;
     const Only *only;   /* of the table's rows */
+    bool brief;         /* no pictures and times of extra views, unless one is asked for by name */
     const View *custom; /* a camera from the command line, instead of the scenes' own views */
 } Choice;
 

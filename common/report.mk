@@ -34,7 +34,7 @@ measure = @done=0; start=$$(date +%s); for lesson in $(1); do \
 	rm -rf $$at $$at.html $$at.csv $$at.list $$at-curves.csv $$at-cases.csv; \
 	mkdir -p $$at; \
 	$(B)/$$lesson --list $(REPORT_FLAGS) >$$at.list || exit 1; \
-	$(B)/$$lesson --render $$at --truth $$at --errors $$at --measure $$at.csv $(REPORT_FLAGS) || exit 1; \
+	$(B)/$$lesson --render $$at --truth $$at --errors $$at --measure $$at.csv --brief $(REPORT_FLAGS) || exit 1; \
 	rm -f $$at/*.exr; \
 	if [ -e lessons/$$lesson/cases.h ]; then \
 		$(B)/tests/cases-$$lesson $$at-cases.csv >$$at/cases.log \

@@ -112,10 +112,11 @@ static double leaving_time(double at, double rate, long i) {
     return INFINITY;
 }
 
-/* The cells in their order along the path, until the surface is met; at height 0 it must have been. */
-static double walk(const Image *height, const Path *path) {
-    double end = -path->h / path->dh, t = 0.0;
-    Cell cell = cell_at(height, path->x, path->y);
+/* The cells in their order along the path from t = `from` on, until the surface is met; at height 0 it must
+ * have been. A negative number if the path is longer than `to` before that. */
+static double walk(const Image *height, const Path *path, double from, double to) {
+    double bottom = -path->h / path->dh, end = fmin(bottom, to), t = from;
+    Cell cell = cell_at(height, path->x + t * path->dx, path->y + t * path->dy);
     while (t < end) {
         double tx = leaving_time(path->x, path->dx, cell.x0), ty = leaving_time(path->y, path->dy, cell.y0);
         double leave = clamp(tx < ty ? tx : ty, t, end);
@@ -125,13 +126,32 @@ static double walk(const Image *height, const Path *path) {
         if (tx <= ty) step(&cell.x0, &cell.left, &cell.right, height->width, path->dx > 0.0);
         if (ty <= tx) step(&cell.y0, &cell.bottom, &cell.top, height->height, path->dy > 0.0);
     }
-    return end;
+    return bottom <= to ? bottom : -1.0;
+}
+
+/* Narrows from..to, times along a coordinate that is `at` for t = 0 and moves by `rate`, to low..high of it.
+ */
+static void clip(double at, double rate, double low, double high, double *from, double *to) {
+    if (rate == 0.0) {
+        if (at < low || at > high) *to = -INFINITY;
+        return;
+    }
+    double a = (low - at) / rate, b = (high - at) / rate;
+    *from = fmax(*from, fmin(a, b));
+    *to = fmin(*to, fmax(a, b));
+}
+
+static double path_above(const Image *height, const Path *path, double t) {
+    double h;
+    image_sample(height, (path->x + t * path->dx + 0.5) / height->width,
+                 (path->y + t * path->dy + 0.5) / height->height, &h);
+    return path->h + t * path->dh - h;
 }
 
 Sample truth_relief(const Relief *relief, Ray ray) {
     double depth = relief->width * relief->scale, height = relief->width * relief->aspect;
     Sample window = truth_plane(ray, relief->width, height);
-    if (!window.hit || ray.direction.z >= 0.0) return (Sample){0};
+    if (!(ray.direction.z < 0.0) || (!window.hit && relief->extent != RELIEF_SLAB)) return (Sample){0};
     if (depth == 0.0) return window;
     /* The walk starts where the ray enters the layer of heights 0..1, or at the eye if that is within it. */
     double start = fmax(0.0, (depth * (1.0 - relief->base) - ray.origin.z) / ray.direction.z);
@@ -143,9 +163,28 @@ Sample truth_relief(const Relief *relief, Ray ray) {
                  .dx = d.x / relief->width * image->width,
                  .dy = d.y / height * image->height,
                  .dh = d.z / depth};
-    double t = walk(image, &path);
+    double from = 0.0, to = INFINITY;
+    if (relief->extent != RELIEF_REPEATED) {
+        clip(path.x, path.dx, -0.5, image->width - 0.5, &from, &to);
+        clip(path.y, path.dy, -0.5, image->height - 0.5, &from, &to);
+        if (from > to || path_above(image, &path, from) < 0.0) return (Sample){0};
+    }
+    double t = walk(image, &path, from, to);
+    if (t < 0.0) return (Sample){0};
     return (Sample){.u = (path.x + t * path.dx + 0.5) / image->width,
                     .v = (path.y + t * path.dy + 0.5) / image->height,
                     .depth = start + t,
                     .hit = true};
+}
+
+Vec3 truth_relief_normal(const Relief *relief, double u, double v) {
+    const Image *image = relief->height;
+    double x = u * image->width - 0.5, y = v * image->height - 0.5;
+    Cell cell = cell_at(image, x, y);
+    double a = x - (double)cell.x0, b = y - (double)cell.y0;
+    double h00 = *image_at(image, cell.left, cell.bottom), h10 = *image_at(image, cell.right, cell.bottom);
+    double h01 = *image_at(image, cell.left, cell.top), h11 = *image_at(image, cell.right, cell.top);
+    double along_u = ((h10 - h00) * (1.0 - b) + (h11 - h01) * b) * image->width;
+    double along_v = ((h01 - h00) * (1.0 - a) + (h11 - h10) * a) * image->height / relief->aspect;
+    return vec3_normalize(v3(-relief->scale * along_u, -relief->scale * along_v, 1.0));
 }

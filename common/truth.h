@@ -60,17 +60,27 @@ Sample truth_cylinder(Ray ray, double radius, double height);
 
 /* ---- A relief: the height field of an image on a rectangle ---- */
 
+/* Where a relief ends. REPEATED: the rectangle z = 0 is a window, through which rays must come, and the
+ * relief goes on beyond its edges. CUT: rays must come through that window, but the surface ends where the
+ * rectangle does. SLAB: there is no window; rays may come in through the sides of the layer of heights 0..1
+ * too. */
+typedef enum { RELIEF_REPEATED, RELIEF_CUT, RELIEF_SLAB } ReliefExtent;
+
 typedef struct {
     const Image *height; /* one channel, h in 0..1, bilinear between texel centres, repeated */
     double width,
         aspect;         /* the rectangle of mesh_plane: its width in world units, its height over its width */
     double scale, base; /* the surface is at z = width scale (h - base) */
+    ReliefExtent extent;
 } Relief;
 
-/* Where a ray that comes from above and crosses the rectangle z = 0 within 0..1 x 0..1 meets the surface: u
- * and v of that point. They may lie outside 0..1, for the rectangle is a window: the relief goes on beyond
- * its edge. The field is walked cell by cell between texel centres; in each the bilinear patch's first root
- * is found. */
+/* Where a ray that comes from above meets the surface: u and v of that point, within 0..1 but for
+ * RELIEF_REPEATED. The field is walked cell by cell between texel centres; in each the bilinear patch's first
+ * root is found. The surface has no sides: a ray that enters CUT or SLAB below it meets nothing. */
 Sample truth_relief(const Relief *relief, Ray ray);
+
+/* The unit normal of that surface at (u, v) of a hit: the bilinear patch's own, so it jumps where cells meet.
+ */
+Vec3 truth_relief_normal(const Relief *relief, double u, double v);
 
 #endif

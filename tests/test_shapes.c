@@ -107,8 +107,8 @@ static void test_relief_against_marching(void **state) {
         for (int k = 0; k < height.width * height.height; k++)
             height.pixels[k] = k % 5 == 4 ? 0.0f : k % 5 == 2 ? 1.0f : (float)random_in(0, 1);
         for (int k = 0; k < 60; k++) {
-            Relief relief = {&height, random_in(0.5, 2), random_in(0.5, 2), random_in(0.02, 0.3),
-                             k % 3 / 2.0};
+            Relief relief = {&height,     random_in(0.5, 2), random_in(0.5, 2), random_in(0.02, 0.3),
+                             k % 3 / 2.0, RELIEF_REPEATED};
             double grazing = pow(10, random_in(-1.7, 0.5)); /* from 1 degree above the plane to its normal */
             Vec3 window = v3(random_in(-0.5, 0.5) * relief.width,
                              random_in(-0.5, 0.5) * relief.width * relief.aspect, 0);
@@ -137,11 +137,76 @@ static void test_relief_against_marching(void **state) {
     assert_true(earlier * 50 < rays);
 }
 
+/* The first t at which the ray is at or below the surface within the slab's footprint, by small steps;
+ * negative where there is none, or where the ray comes in below the surface. */
+static double march_slab(const Relief *relief, Ray ray) {
+    double height = relief->width * relief->aspect, top = relief->width * relief->scale * (1 - relief->base);
+    bool began = false;
+    for (double t = (top - ray.origin.z) / ray.direction.z; t < 40; t += 2e-4) {
+        Vec3 p = ray_at(ray, t);
+        bool inside = fabs(p.x) <= relief->width / 2 && fabs(p.y) <= height / 2;
+        if (began && !inside) return -1;
+        if (!inside) continue;
+        if (above(relief, ray, t) <= 0) return began ? t : -1;
+        began = true;
+    }
+    return -1;
+}
+
+/* A cut relief is the slab behind its window; both against marching, and misses as misses. */
+static void test_relief_extents(void **state) {
+    (void)state;
+    Image height = image_create(6, 5, 1);
+    for (int k = 0; k < 30; k++) height.pixels[k] = (float)random_in(0, 1);
+    int hits = 0, misses = 0, behind = 0;
+    for (int k = 0; k < 300; k++) {
+        Relief relief = {&height, 1.5, 0.8, 0.2, k % 3 / 2.0, RELIEF_SLAB};
+        Vec3 toward = v3(random_in(-0.9, 0.9), random_in(-0.8, 0.8), 0);
+        Vec3 eye = v3(random_in(-4, 4), random_in(-4, 4), random_in(0.5, 2));
+        Ray ray = ray_between(eye, toward);
+        double t = march_slab(&relief, ray);
+        Sample slab = truth_relief(&relief, ray);
+        if (slab.hit != (t >= 0) || (slab.hit && fabs(slab.depth - t) > 3e-4)) {
+            misses +=
+                1000 * (slab.hit && t >= 0 && slab.depth > t); /* never later; a ridge may be passed by */
+            behind++;
+            continue;
+        }
+        slab.hit ? hits++ : misses++;
+        relief.extent = RELIEF_CUT;
+        Sample cut = truth_relief(&relief, ray), window = truth_plane(ray, 1.5, 1.5 * 0.8);
+        assert_int_equal(cut.hit, slab.hit && window.hit);
+        if (cut.hit) near(cut.depth, slab.depth, 0);
+        if (slab.hit) assert_true(slab.u >= 0 && slab.u <= 1 && slab.v >= 0 && slab.v <= 1);
+    }
+    assert_true(hits > 100 && misses > 30 && misses < 1000 && behind < 6);
+    image_destroy(&height);
+}
+
+/* The normal against the surface itself, by differences. */
+static void test_relief_normal(void **state) {
+    (void)state;
+    Image height = image_create(6, 5, 1);
+    for (int k = 0; k < 30; k++) height.pixels[k] = (float)random_in(0, 1);
+    Relief relief = {&height, 1.5, 0.8, 0.2, 1, RELIEF_REPEATED};
+    for (int k = 0; k < 50; k++) {
+        double u = random_in(0, 1), v = random_in(0, 1), step = 1e-7, h[3];
+        image_sample(&height, u, v, &h[0]);
+        image_sample(&height, u + step, v, &h[1]);
+        image_sample(&height, u, v + step, &h[2]);
+        Vec3 along_u = v3(step * 1.5, 0, 0.2 * 1.5 * (h[1] - h[0]));
+        Vec3 along_v = v3(0, step * 1.5 * 0.8, 0.2 * 1.5 * (h[2] - h[0]));
+        Vec3 normal = vec3_normalize(vec3_cross(along_u, along_v)), ours = truth_relief_normal(&relief, u, v);
+        near(vec3_length(vec3_sub(normal, ours)), 0, 1e-5);
+    }
+    image_destroy(&height);
+}
+
 static void test_relief_special(void **state) {
     (void)state;
     Image height = image_create(4, 4, 1);
     for (int i = 0; i < 16; i++) height.pixels[i] = 0.25f;
-    Relief relief = {&height, 1, 1, 0.2, 1};
+    Relief relief = {&height, 1, 1, 0.2, 1, RELIEF_REPEATED};
     Ray down = {{0.1, 0.2, 3}, {0, 0, -1}};
     near(truth_relief(&relief, down).depth, 3.15, 1e-12);
     relief.base = 0;
@@ -169,6 +234,8 @@ int main(void) {
         cmocka_unit_test(test_plane),
         cmocka_unit_test(test_cylinder),
         cmocka_unit_test(test_relief_against_marching),
+        cmocka_unit_test(test_relief_extents),
+        cmocka_unit_test(test_relief_normal),
         cmocka_unit_test(test_relief_special),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

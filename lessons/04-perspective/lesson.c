@@ -56,9 +56,9 @@
               {"first", first, "s and t at the corner where x and y are least"}}
 
 static const Lesson lesson = {
-    "04-perspective",
-    "interpolation across a polygon: why not the colour, and why not linearly on the screen?",
-    {
+    .name = "04-perspective",
+    .title = "interpolation across a polygon: why not the colour, and why not linearly on the screen?",
+    .scenes = {
         {"quad", "a wall, turned away from the eye by up to 80 degrees",
          .techniques = {AFFINE, COLOUR(1, 64), SUBDIVIDED(1, 4, 16, 64), SPANS(4, 16, 64), PERSPECTIVE, OPENGL},
          .views = {TILTED("0", 0, 1.45), TILTED("45", 0.7778174593052023, 0.77781745930520241),

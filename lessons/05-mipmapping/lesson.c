@@ -42,9 +42,9 @@
 /* clang-format on */
 
 static const Lesson lesson = {
-    "05-mipmapping",
-    "mipmaps and their kin: reading as much of a texture as a pixel sees",
-    {
+    .name = "05-mipmapping",
+    .title = "mipmaps and their kin: reading as much of a texture as a pixel sees",
+    .scenes = {
         {"floor", "a checkerboard floor to the horizon",
          .techniques = {NEAREST, BILINEAR, MIP_NEAREST, TRILINEAR, TRILINEAR_SRGB, TRILINEAR_KAISER,
                         SUMMED_AREA, AREA(1, 2, 4, 16), OPENGL},

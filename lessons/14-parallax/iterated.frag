@@ -1,3 +1,4 @@
+#include "parallax.glsl"
 #include "polygon.inc"
 
 uniform float knob;

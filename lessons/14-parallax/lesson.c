@@ -5,9 +5,9 @@
  * ray enters and not where it lands. `iterated` repairs that where the wall is gentle, and trembles where it
  * is steep. On the cylinder, watch the joint: eight flat sides below, and the pattern meets that of the round
  * half. */
+#include "parallax.h"
 #include "prism.h"
 #include "stereo.h"
-#include "wall.h"
 
 /* ---- The techniques: a fragment shader each, of their own name ---- */
 
@@ -17,7 +17,7 @@
 #define PLAIN {SHADED("plain", "the texture as it lies on the polygon")}
 #define TWO_FETCHES {SHADED("two-fetches", "reads the same two textures unshifted: what any shift must cost")}
 #define DISTORTION_MAP \
-    {SHADED("distortion-map", "the shift of this view built in C, read and added"), .prepare = wall_prepare_distortion}
+    {SHADED("distortion-map", "the shift of this view built in C, read and added"), .prepare = parallax_prepare_distortion}
 #define PARALLAX {SHADED("parallax", "the paper's: one view vector for the whole polygon")}
 #define PER_PIXEL {SHADED("per-pixel", "each pixel's own view vector")}
 #define OFFSET_LIMIT {SHADED("offset-limit", "without the division by view.z: a shift of at most d")}
@@ -56,7 +56,7 @@
 /* ---- The scenes ---- */
 
 #define WALL(base, base_says) \
-    .unload = wall_unload, .draw = wall_draw, .truth = wall_truth, .texels = wall_texels, \
+    .unload = parallax_unload, .draw = parallax_draw, .truth = wall_truth, .texels = wall_texels, \
     .background = {0.02, 0.02, 0.02}, \
     .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
               {"base", base, "height of the polygon, " base_says}}
@@ -69,24 +69,24 @@
 /* clang-format on */
 
 static const Lesson lesson = {
-    "14-parallax",
-    "parallax mapping: a depth looked up once moves the texture with the eye",
-    {
+    .name = "14-parallax",
+    .title = "parallax mapping: a depth looked up once moves the texture with the eye",
+    .scenes = {
         {"brick", "a brick wall, its bricks' faces in the polygon (base 1)",
          .techniques = {PLAIN, TWO_FETCHES, DISTORTION_MAP, PARALLAX, PER_PIXEL, OFFSET_LIMIT,
                         ITERATED(4, 16)},
          .views = {FRONT, {"30", WALL_30}, {"60", WALL_60}, NEAR}, .colour = "brick-colour.png",
          .height = "brick-height.png", .path = {WALL_30, ORTHOGRAPHIC(2.5, 0, 3.1224989991991992, 0.64)},
-         .load = wall_load, .samples = 18, .measure = wall_measure,
+         .load = parallax_load, .samples = 18, .measure = parallax_measure,
          WALL(1, "unless base_of_file says otherwise")},
         {"bottom", "the same wall standing on its polygon (base 0)",
          .techniques = {PLAIN, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)}, .views = {{"60", WALL_60}, NEAR},
-         .colour = "brick-colour.png", .height = "brick-height.png", .load = wall_load_bottom, .samples = 18,
-         .measure = wall_measure, WALL(0, "whatever base_of_file says")},
+         .colour = "brick-colour.png", .height = "brick-height.png", .load = parallax_load_bottom,
+         .samples = 18, .measure = parallax_measure, WALL(0, "whatever base_of_file says")},
         {"soft", "gentle waves, where the iteration contracts up to an angle of 73 degrees",
          .techniques = {PLAIN, PER_PIXEL, ITERATED(2, 4, 8, 16)},
          .views = {{"30", WALL_30}, {"60", WALL_60}, {"82", WALL_82}, NEAR}, .colour = "uv-grid.png",
-         .height = "soft-height.png", .load = wall_load, .samples = 8, .measure = wall_measure,
+         .height = "soft-height.png", .load = parallax_load, .samples = 8, .measure = parallax_measure,
          WALL(1, "unless base_of_file says otherwise")},
         {"cylinder", "eight sides below the joint, 32 plain ones above (the paper's Figure 6)",
          .techniques = {PLAIN, PARALLAX, PER_PIXEL, ITERATED(4)},
@@ -106,7 +106,7 @@ static const Lesson lesson = {
         {"stereo", "a photographed scene's relief from its measured disparity, seen by two eyes",
          .techniques = {PLAIN, PARALLAX, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)},
          .views = {EYE("left", -0.0615), EYE("right", 0.0615)}, .colour = "stereo-colour.png",
-         .height = "stereo-height.exr", .other = {"stereo-mask.png"}, .load = wall_load, .samples = 18,
+         .height = "stereo-height.exr", .other = {"stereo-mask.png"}, .load = parallax_load, .samples = 18,
          .measure = stereo_measure, WALL(1, "unless base_of_file says otherwise")},
     }};
 

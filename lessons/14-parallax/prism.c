@@ -2,7 +2,7 @@
 
 #include "fail.h"
 #include "table.h"
-#include "wall.h"
+#include "parallax.h"
 
 #include <stdlib.h>
 
@@ -122,7 +122,7 @@ static double face_angle(const Prism *prism, int i) {
 static Vec2 face_tangents(const Camera *camera, double angle, Vec3 middle) {
     Vec3 view = vec3_sub(camera->eye, camera->fov_y_degrees > 0.0 ? middle : camera->target);
     Vec3 normal = v3(sin(angle), 0, cos(angle)), tangent = v3(cos(angle), 0, -sin(angle));
-    return wall_tangents(v3(vec3_dot(view, tangent), view.y, vec3_dot(view, normal)));
+    return parallax_tangents(v3(vec3_dot(view, tangent), view.y, vec3_dot(view, normal)));
 }
 
 static void draw_prism(const Frame *frame, const Prism *prism, double middle_y, double scale) {

@@ -1,9 +1,9 @@
 /* The lesson's own C: the distortion map against the paper's equation, the prism's depth map against the
  * circle, the steepness against slopes that are known, and the search for a disparity in rows made by hand.
  */
+#include "parallax.h"
 #include "prism.h"
 #include "stereo.h"
-#include "wall.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,9 +28,9 @@ static Image uneven(int width, int height) {
 static void test_distortion_follows_the_ray(void **state) {
     (void)state;
     Image height = uneven(9, 6);
-    Relief relief = {&height, 1.0, 0.7, 0.1, 0.4};
+    Relief relief = {&height, 1.0, 0.7, 0.1, 0.4, RELIEF_REPEATED};
     Camera camera = {.eye = {0.9, -0.6, 1.1}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov_y_degrees = 40};
-    Image map = wall_distortion(&relief, &camera);
+    Image map = parallax_distortion(&relief, &camera);
     assert_int_equal(map.width, 9);
     assert_int_equal(map.height, 6);
     for (int y = 0; y < map.height; y++)
@@ -49,9 +49,9 @@ static void test_distortion_follows_the_ray(void **state) {
 static void test_distortion_sign(void **state) {
     (void)state;
     Image height = image_create(1, 1, 1); /* 0: the bottom */
-    Relief relief = {&height, 1.0, 1.0, 0.1, 1.0};
+    Relief relief = {&height, 1.0, 1.0, 0.1, 1.0, RELIEF_REPEATED};
     Camera camera = {.eye = {1, 0, 1}, .target = {0, 0, 0}, .up = {0, 1, 0}, .height = 1};
-    Image map = wall_distortion(&relief, &camera);
+    Image map = parallax_distortion(&relief, &camera);
     near(map.pixels[0], -0.1, 1e-7);
     near(map.pixels[1], 0.0, 0.0);
     image_destroy(&map);
@@ -62,11 +62,11 @@ static void test_tangents_in_the_plane(void **state) {
     (void)state;
     const Vec3 views[] = {{1, 0, 0}, {0.6, 0.8, -0.1}, {0, 0, -1}, {0, 0, 0}, {1, 1, 1e-7}};
     for (int i = 0; i < 5; i++) {
-        Vec2 t = wall_tangents(views[i]);
+        Vec2 t = parallax_tangents(views[i]);
         assert_true(t.x == 0.0 && t.y == 0.0);
     }
-    near(wall_tangents(v3(3, -1, 2)).x, 1.5, 0.0);
-    near(wall_tangents(v3(3, -1, 2)).y, -0.5, 0.0);
+    near(parallax_tangents(v3(3, -1, 2)).x, 1.5, 0.0);
+    near(parallax_tangents(v3(3, -1, 2)).y, -0.5, 0.0);
 }
 
 /* Points of the arc from the map: each must be on the circle of radius 1, up to the map's floats. */
@@ -90,14 +90,14 @@ static void test_steepness(void **state) {
     (void)state;
     Image ramp = image_create(4, 2, 1); /* 0, 1/4, 1/2, 3/4: the seam falls by 3/4 */
     for (int i = 0; i < 8; i++) ramp.pixels[i] = (float)(i % 4) / 4;
-    Relief relief = {&ramp, 1.0, 0.5, 0.2, 1.0};
-    near(wall_steepness(&relief), 0.2 * 0.75 * 4, 1e-12);
+    Relief relief = {&ramp, 1.0, 0.5, 0.2, 1.0, RELIEF_REPEATED};
+    near(parallax_steepness(&relief), 0.2 * 0.75 * 4, 1e-12);
     *image_at(&ramp, 3, 0) = *image_at(&ramp, 3, 1) = 0.25f; /* 0, 1/4, 1/2, 1/4 */
-    near(wall_steepness(&relief), 0.2 * 0.25 * 4, 1e-12);
+    near(parallax_steepness(&relief), 0.2 * 0.25 * 4, 1e-12);
     image_destroy(&ramp);
     Image one = image_create(1, 1, 1);
     relief.height = &one;
-    near(wall_steepness(&relief), 0.0, 0.0);
+    near(parallax_steepness(&relief), 0.0, 0.0);
     image_destroy(&one);
 }
 

@@ -1,4 +1,4 @@
-#include "wall.h"
+#include "parallax.h"
 
 #include "fail.h"
 #include "table.h"
@@ -8,62 +8,39 @@
 
 /* ---- Loading ---- */
 
-static void require_heights(const Image *height, const char *path) {
-    size_t count = (size_t)height->width * height->height;
-    for (size_t i = 0; i < count; i++)
-        if (height->pixels[i] < 0.0f || height->pixels[i] > 1.0f)
-            fail("%s: a height must lie in 0..1, but one is %g", path, height->pixels[i]);
+static Parallax *load(const Options *options) {
+    Parallax *parallax = allocate(1, sizeof *parallax);
+    wall_load(&parallax->wall, options);
+    return parallax;
 }
 
-static Wall *load(const Options *options, double base) {
-    Wall *wall = allocate(1, sizeof *wall);
-    wall->colour_image = image_load(options->colour, IMAGE_COLOUR);
-    wall->height_image = image_load(options->height, IMAGE_HEIGHT);
-    require_heights(&wall->height_image, options->height);
-    if (options->other[0]) wall->mask = image_load(options->other[0], IMAGE_HEIGHT);
-    wall->colour = texture_of(&wall->colour_image, IMAGE_COLOUR);
-    wall->height = texture_of(&wall->height_image, IMAGE_HEIGHT);
-    double aspect = (double)wall->colour_image.height / wall->colour_image.width;
-    wall->relief =
-        (Relief){&wall->height_image, 1.0, aspect, options_scale(options, &wall->height_image), base};
-    Mesh plane = mesh_plane(1.0, aspect, 1, 1);
-    wall->polygon = shape_create(&plane);
-    mesh_destroy(&plane);
-    return wall;
+void *parallax_load(const Options *options) { return load(options); }
+
+void *parallax_load_bottom(const Options *options) {
+    Parallax *parallax = load(options);
+    parallax->wall.relief.base = 0.0;
+    return parallax;
 }
 
-void *wall_load(const Options *options) {
-    Wall *wall = load(options, 1.0);
-    if (!isnan(wall->height_image.base)) wall->relief.base = wall->height_image.base;
-    return wall;
-}
-
-void *wall_load_bottom(const Options *options) { return load(options, 0.0); }
-
-void wall_unload(void *data) {
-    Wall *wall = data;
-    image_destroy(&wall->colour_image);
-    image_destroy(&wall->height_image);
-    if (wall->mask.pixels) image_destroy(&wall->mask);
-    texture_destroy(&wall->colour);
-    texture_destroy(&wall->height);
-    if (wall->distortion.id) texture_destroy(&wall->distortion);
-    shape_destroy(&wall->polygon);
-    free(wall);
+void parallax_unload(void *data) {
+    Parallax *parallax = data;
+    if (parallax->distortion.id) texture_destroy(&parallax->distortion);
+    wall_unload(&parallax->wall);
+    free(parallax);
 }
 
 /* ---- Drawing ---- */
 
-Vec2 wall_tangents(Vec3 view) {
+Vec2 parallax_tangents(Vec3 view) {
     return view.z > 1e-6 * vec3_length(view) ? v2(view.x / view.z, view.y / view.z) : v2(0, 0);
 }
 
 /* The same for a camera's view of a point of the polygon. */
 static Vec2 tangents_at(const Camera *camera, Vec3 point) {
-    return wall_tangents(vec3_sub(camera->eye, camera->fov_y_degrees > 0.0 ? point : camera->target));
+    return parallax_tangents(vec3_sub(camera->eye, camera->fov_y_degrees > 0.0 ? point : camera->target));
 }
 
-Image wall_distortion(const Relief *relief, const Camera *camera) {
+Image parallax_distortion(const Relief *relief, const Camera *camera) {
     Image map = image_create(relief->height->width, relief->height->height, 2);
     for (int y = 0; y < map.height; y++) {
         for (int x = 0; x < map.width; x++) {
@@ -77,58 +54,27 @@ Image wall_distortion(const Relief *relief, const Camera *camera) {
     return map;
 }
 
-void wall_prepare_distortion(const Frame *frame) {
-    Wall *wall = frame->data;
-    Image map = wall_distortion(&wall->relief, &frame->camera);
-    if (wall->distortion.id) texture_destroy(&wall->distortion);
-    wall->distortion = texture_create(&map, 1, TEXTURE_FLOAT, TEXTURE_LINEAR);
+void parallax_prepare_distortion(const Frame *frame) {
+    Parallax *parallax = frame->data;
+    Image map = parallax_distortion(&parallax->wall.relief, &frame->camera);
+    if (parallax->distortion.id) texture_destroy(&parallax->distortion);
+    parallax->distortion = texture_create(&map, 1, TEXTURE_FLOAT, TEXTURE_LINEAR);
     image_destroy(&map);
 }
 
-void wall_draw(const Frame *frame) {
-    const Wall *wall = frame->data;
+void parallax_draw(const Frame *frame) {
+    const Parallax *parallax = frame->data;
     Vec2 tangents = tangents_at(&frame->camera, v3(0, 0, 0));
-    program_texture(frame->program, "colour_map", &wall->colour);
-    program_texture(frame->program, "height_map", &wall->height);
-    program_texture(frame->program, "distortion_map", &wall->distortion);
+    wall_bind(&parallax->wall, frame->program);
+    program_texture(frame->program, "distortion_map", &parallax->distortion);
     program_vector(frame->program, "tangents", tangents.x, tangents.y, 0, 0);
-    program_number(frame->program, "scale", wall->relief.scale);
-    program_number(frame->program, "base", wall->relief.base);
-    program_number(frame->program, "aspect", wall->relief.aspect);
     program_number(frame->program, "nothing", 0.0);
-    shape_draw(&wall->polygon);
-}
-
-/* ---- The truth, and how far a picture is from it ---- */
-
-/* Whether one of the four texels that a bilinear read at (u, v) mixes is masked out. */
-static bool unknown_at(const Wall *wall, double u, double v) {
-    const Image *mask = &wall->mask;
-    if (!mask->pixels || mask->width != wall->height_image.width || mask->height != wall->height_image.height)
-        return false;
-    double known;
-    image_sample(mask, u, v, &known);
-    return known < 1.0 - 1e-9;
-}
-
-Sample wall_truth(const void *data, Ray ray) {
-    const Wall *wall = data;
-    Sample sample = truth_relief(&wall->relief, ray);
-    if (sample.hit) {
-        sample.colour = truth_colour(&wall->colour_image, sample.u, sample.v);
-        sample.unknown = unknown_at(wall, sample.u, sample.v);
-    }
-    return sample;
-}
-
-Vec2 wall_texels(const void *data) {
-    const Wall *wall = data;
-    return v2(wall->colour_image.width, wall->colour_image.height);
+    shape_draw(&parallax->wall.polygon);
 }
 
 /* ---- The lesson's own metrics ---- */
 
-double wall_steepness(const Relief *relief) {
+double parallax_steepness(const Relief *relief) {
     const Image *height = relief->height;
     double per_x = relief->scale * height->width, per_y = relief->scale * height->height / relief->aspect;
     double steepest = 0.0;
@@ -236,10 +182,10 @@ static void add_iterations(const Shots *shots, const Shot *shot, double error, d
     table_set(table, frame->scene->name, name, frame->knob);
 }
 
-void wall_measure(const Shots *shots, Table *table) {
+void parallax_measure(const Shots *shots, Table *table) {
     const Wall *wall = shots->frame->data;
     bool first = shots->frame->technique == shots->frame->scene->techniques; /* for what belongs to none */
-    double steepness = first ? wall_steepness(&wall->relief) : 0;
+    double steepness = first ? parallax_steepness(&wall->relief) : 0;
     if (first) table_add(table, shots, NULL, "steepness_max", steepness, "widths per width");
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];

@@ -1,0 +1,27 @@
+/* Rays against a triangle mesh: Embree finds the triangle, and the crossing with its plane is then computed
+ * in doubles. For truths and for making textures. */
+#ifndef TEXEL_MESH_RAYS_H
+#define TEXEL_MESH_RAYS_H
+
+#include "mesh.h"
+#include "vec.h"
+
+#include <stdbool.h>
+
+typedef struct MeshRays MeshRays;
+
+typedef struct {
+    double depth; /* along the ray, from its origin */
+    Vec3 normal;  /* unit: the corners' normals mixed, as a shader would */
+    int triangle;
+} MeshHit;
+
+/* Prepares a mesh for rays; it must outlive what is returned, which mesh_rays_destroy frees. */
+MeshRays *mesh_rays_create(const Mesh *mesh);
+void mesh_rays_destroy(MeshRays *rays);
+
+/* The first triangle that the ray meets, from either side. False, and hit as it was, where there is none. May
+ * be called from many threads. */
+bool mesh_rays_hit(const MeshRays *rays, Ray ray, MeshHit *hit);
+
+#endif
