@@ -1,7 +1,7 @@
 # Texel by Texel: every command. `make help` lists them.
 
 B := build
-LESSONS := $(notdir $(wildcard lessons/[0-9][0-9]-*))
+LESSONS := $(patsubst lessons/%/lesson.c,%,$(wildcard lessons/[0-9][0-9]-*/lesson.c))
 NUMBERS := $(foreach lesson,$(LESSONS),$(firstword $(subst -, ,$(lesson))))
 lesson_of = $(filter $(1)-%,$(LESSONS))
 
