@@ -99,6 +99,15 @@ void camera_orbit(Camera *camera, double right, double up) {
     camera->eye = vec3_add(camera->target, way);
 }
 
+void camera_pan(Camera *camera, double right, double up) {
+    Axes axes = camera_axes(camera);
+    double distance = vec3_length(vec3_sub(camera->target, camera->eye));
+    double shown = 2.0 * half_height(camera) * (camera->fov_y_degrees > 0.0 ? distance : 1.0);
+    Vec3 way = vec3_add(vec3_scale(axes.right, right * shown), vec3_scale(axes.up, up * shown));
+    camera->eye = vec3_add(camera->eye, way);
+    camera->target = vec3_add(camera->target, way);
+}
+
 void camera_nearer(Camera *camera, double factor) {
     if (camera->fov_y_degrees > 0.0) {
         Vec3 way = vec3_sub(camera->eye, camera->target);

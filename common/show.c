@@ -80,6 +80,28 @@ void show_knob(Show *show, bool up) {
     technique_changed(show);
 }
 
+static void refiner_anew(Show *show) {
+    if (show->refiner) refiner_destroy(show->refiner);
+    show->refiner = refiner_create(&show->stage.truth, scene_samples(show->stage.scene), show->wake);
+}
+
+void show_motion(Show *show) {
+    if (!show->stage.scene->move) return;
+    show->moving = !show->moving;
+    show->moved_until = now();
+    refiner_anew(show); /* its thread reads the scene: it must have ended before that changes */
+    camera_changed(show);
+    drop(&show->exact);
+}
+
+static void move(Show *show) {
+    double time = now();
+    show->seconds += time - show->moved_until;
+    show->moved_until = time;
+    show->stage.scene->move(show->stage.data, show->seconds);
+    picture_changed(show);
+}
+
 static void set_view(Show *show, const View *view) {
     show->start = view;
     show->camera = view->camera;
@@ -103,6 +125,7 @@ static int find_view(const Scene *scene, const char *name) {
 
 static void close_scene(Show *show) {
     refiner_destroy(show->refiner); /* its thread reads the scene */
+    show->refiner = NULL;
     stage_close(&show->stage);
     drop(&show->exact);
     drop(&show->heat);
@@ -112,7 +135,9 @@ static void close_scene(Show *show) {
 /* The scene, with the technique and the view of those names if it has them, else with its first. */
 static void open_scene(Show *show, const Scene *scene, const char *technique, const char *view) {
     show->stage = stage_open(show->lesson, scene, show->options);
-    show->refiner = refiner_create(&show->stage.truth, scene_samples(scene), show->wake);
+    show->moving = false;
+    show->seconds = 0.0;
+    refiner_anew(show);
     for (int i = 0; i < technique_count(scene); i++)
         show->knobs[i] = scene->techniques[i].knob.name ? scene->techniques[i].knob.values[0] : 0.0;
     int same_technique = find_technique(scene, technique), same_view = find_view(scene, view);
@@ -278,7 +303,9 @@ static void glance(Show *show) {
 
 double show_update(Show *show) {
     glance(show);
+    if (show->moving) move(show);
     show_draw(show);
+    if (show->moving) return 0.0;
     bool timing = show->frames < FRAMES_WANTED && show->spent < REST / 2 && is_built(show);
     if (timing) {
         draw(show);

@@ -19,8 +19,10 @@ typedef struct {
     double knobs[TECHNIQUES_MAX];
     const View *start; /* where the camera began */
     Camera camera;
-    bool moved; /* the camera is no longer there: its view is then called "camera", as on the command line */
-    bool eager; /* the truth is wanted at once, not only when all rests */
+    bool moved;  /* the camera is no longer there: its view is then called "camera", as on the command line */
+    bool moving; /* the scene moves by itself, */
+    double seconds, moved_until; /* has done so for so long, and until when */
+    bool eager;                  /* the truth is wanted at once, not only when all rests */
 
     bool changed;           /* what is below, since the owner set this to false */
     const Texture *picture; /* the technique's: one of the three below */
@@ -53,6 +55,10 @@ void show_knob(Show *show, bool up); /* to the next value of those that the tech
 void show_next_view(Show *show);
 void show_next_scene(Show *show);
 void show_moved(Show *show); /* the owner has moved the camera */
+
+/* Lets what moves by itself go on, or stop; nothing if the scene has nothing that does. While it moves there
+ * is no truth, for that takes longer than a frame. */
+void show_motion(Show *show);
 
 /* Draws the technique if its picture is out of date. Where its shader cannot be built the last one stays. */
 void show_draw(Show *show);

@@ -18,11 +18,13 @@
 #include <GLFW/glfw3.h>
 
 static const char help_text[] = "drag     turns the camera about its target\n"
+                                "right    (drag) moves it aside\n"
                                 "scroll   comes nearer\n"
                                 "1..9     the technique; Tab: the next one\n"
                                 "[ ]      the technique's knob\n"
                                 "V        the next view\n"
                                 "N        the next scene\n"
+                                "space    what moves by itself goes on, or stops\n"
                                 "S        technique | truth, divided by the mouse\n"
                                 "D        the error as a heat map (FLIP)\n"
                                 "F        full screen\n"
@@ -82,12 +84,15 @@ static char *corner_text(const Window *w) {
     if (technique->prepare) fprintf(out, ", after %.2f ms in C", 1e-6 * cost.prepare_ns);
     if (known->reason[0])
         fprintf(out, "\nno error: %s", known->reason);
+    else if (show->moving)
+        fprintf(out, "\nit moves; space stops it");
     else if (known->judged)
         fprintf(out, "\nrmse %.4f, FLIP %.4f (truth: %d rays a pixel)", known->difference.rmse,
                 known->difference.flip, known->judged);
     else
         fprintf(out, "\nrmse, FLIP: once the camera rests");
     if (w->heated) fprintf(out, "\nheat map: FLIP, from black (0) to white (1)");
+    if (show->stage.scene->move && !show->moving) fprintf(out, "\nspace lets it move");
     fprintf(out, "\nH help");
     fclose(out);
     return result;
@@ -199,6 +204,7 @@ static void knob_down(Window *w) { show_knob(&w->show, false); }
 static void knob_up(Window *w) { show_knob(&w->show, true); }
 static void next_view(Window *w) { show_next_view(&w->show); }
 static void next_scene(Window *w) { show_next_scene(&w->show); }
+static void motion(Window *w) { show_motion(&w->show); }
 static void divide(Window *w) { w->show.eager = w->divided = !w->divided; }
 static void heat(Window *w) { w->heated = !w->heated; }
 static void larger(Window *w) { w->text_step += w->text_step < 12; }
@@ -211,9 +217,9 @@ static void on_letter(GLFWwindow *glfw, unsigned letter) {
     static const struct {
         char letter;
         void (*act)(Window *);
-    } keys[] = {{'[', knob_down}, {']', knob_up}, {'v', next_view},    {'n', next_scene},   {'s', divide},
-                {'d', heat},      {'h', help},    {'f', full_screen},  {'+', larger},       {'=', larger},
-                {'-', smaller},   {'p', save},    {'q', close_window}, {'c', print_command}};
+    } keys[] = {{'[', knob_down}, {']', knob_up}, {'v', next_view},    {'n', next_scene},    {'s', divide},
+                {'d', heat},      {'h', help},    {'f', full_screen},  {'+', larger},        {'=', larger},
+                {'-', smaller},   {'p', save},    {'q', close_window}, {'c', print_command}, {' ', motion}};
     Window *w = glfwGetWindowUserPointer(glfw);
     w->shown = false;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
@@ -239,6 +245,11 @@ static void on_mouse(GLFWwindow *glfw, double x, double y) {
     if (glfwGetMouseButton(glfw, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
         double turn = PI / window_size(w).y; /* half a turn from top to bottom; the scene follows the mouse */
         camera_orbit(&w->show.camera, turn * (w->mouse.x - x), turn * (y - w->mouse.y));
+        show_moved(&w->show);
+    }
+    if (glfwGetMouseButton(glfw, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
+        double pixel = 1.0 / window_size(w).y; /* of the picture's height */
+        camera_pan(&w->show.camera, (w->mouse.x - x) * pixel, (y - w->mouse.y) * pixel);
         show_moved(&w->show);
     }
     w->mouse = v2(x, y);

@@ -195,6 +195,19 @@ static void mix_goes_from_end_to_end(void **state) {
     }
 }
 
+/* What the picture's middle shows after a pan was, before it, that part of the picture's height away. */
+static void pan_moves_aside(void **state) {
+    (void)state;
+    for (int i = 0; i < CAMERAS; i++) {
+        Camera before = pick_camera(i), after = before;
+        camera_pan(&after, 0.25, -0.125);
+        Vec2 seen = camera_project(&before, 320, 240, after.target);
+        expect_near("pan", i, v3(seen.x, seen.y, 0), v3(160 + 60, 120 - 30, 0), 1e-7);
+        Vec3 way = vec3_sub(before.eye, before.target);
+        expect_near("pan's way", i, vec3_sub(after.eye, after.target), way, 1e-9 * (1 + vec3_length(way)));
+    }
+}
+
 int main(void) {
     cmocka_set_message_output(CM_OUTPUT_TAP);
     const struct CMUnitTest tests[] = {
@@ -205,6 +218,7 @@ int main(void) {
         cmocka_unit_test(matrices_agree_with_project),
         cmocka_unit_test(depth_runs_from_near_to_far),
         cmocka_unit_test(mix_goes_from_end_to_end),
+        cmocka_unit_test(pan_moves_aside),
     };
     return cmocka_run_group_tests_name("camera", tests, NULL, NULL);
 }

@@ -136,6 +136,7 @@ for (my $i = 1; $i < @scenes; $i++) { press('n'); }
 my ($per_pixel) = grep { $brick[$_] eq 'per-pixel' } 0 .. $#brick;
 press($per_pixel + 1);
 system(qw(xdotool mousemove 100 75 mousedown 1 mousemove 80 90 mousemove 60 95 mouseup 1 click 4)) == 0 or die;
+system(qw(xdotool mousedown 3 mousemove 55 99 mouseup 3)) == 0 or die;
 my $moved = 'brick-camera-per-pixel';
 saves($moved, 'c');
 rename "$saved/$moved.png", "$root/moved.png" or die;
