@@ -95,7 +95,8 @@ sub load {
         $technique || $id eq 'truth' or stop("$folder/$name.csv: --list knows no technique $_->{technique}");
         push @{$scene->{variants}}, {id => $id, knob => $_->{knob}, technique => $technique}
             unless $id eq 'truth' || any { $_->{id} eq $id } @{$scene->{variants}};
-        push @{$scene->{views}}, $view if $metric eq 'truth_rmse';
+        my $views = $scene->{$metric eq 'ns_per_pixel' ? 'views' : 'measured'} //= [];
+        push @$views, $view unless $view eq '-' || $view eq 'path' || any { $_ eq $view } @$views;
         push @{$scene->{own}}, $metric unless $STANDARD{$metric} || any { $_ eq $metric } @{$scene->{own}};
         $scene->{unit}{$metric} = $_->{unit};
         $_->{value} =~ /^-?[0-9.]+(e[-+]?[0-9]+)?$/ or stop("$folder/$name.csv: $metric of $id is $_->{value}");
@@ -103,6 +104,8 @@ sub load {
     }
     $lesson->{scenes} or stop("$folder/$name.csv: no rows");
     for my $scene (@{$lesson->{scenes}}) {    # a missing picture or number is a failure
+        my %shown = map { $_ => 1 } @{$scene->{views}};    # extra views are measured, not timed, and not pictured
+        $scene->{extra} = [grep { !$shown{$_} } @{$scene->{measured}}];
         for my $view (@{$scene->{views}}) {
             for my $id ('truth', map { $_->{id} } @{$scene->{variants}}) {
                 for ($id eq 'truth' ? $id : ($id, "$id-error")) {
@@ -396,22 +399,28 @@ sub view_table {
         ['technique', map { label($_) } @variants], @columns);
 }
 
-# A metric of the lesson's own: techniques down, views across.
+# A metric of the lesson's own: techniques down, views across; where views are many, the other way round.
 sub own_table {
-    my ($scene, $metric) = @_;
+    my ($scene, $metric, @views) = @_;
     my $value = $scene->{value};
     my @variants = grep {
         my $id = $_->{id};
         any { defined $value->{$_}{$id}{$metric} } keys %$value;
     } @{$scene->{variants}};
-    my @columns;
-    for my $view (@{$scene->{views}}, 'path', '-') {
-        next unless any { defined $value->{$view}{$_->{id}}{$metric} } @variants;
-        push @columns, [$view eq '-' ? 'all' : $view, map { figure($scene, $view, $_->{id}, $metric) } @variants];
-    }
+    @views = grep {
+        my $view = $_;
+        any { defined $value->{$view}{$_->{id}}{$metric} } @variants;
+    } @views or return;
     my $unit = $scene->{unit}{$metric};
     my $caption = "<b>$metric</b>" . ($unit eq '1' ? '' : ', ' . text($unit));
-    return table($caption, ['technique', map { label($_) } @variants], @columns);
+    my @names = map { $_ eq '-' ? 'all' : $_ } @views;
+    my $cell = sub { my ($view, $variant) = @_; figure($scene, $view, $variant->{id}, $metric) };
+    if (@views > 12) {
+        return table($caption, ['view', @names],
+            map { my $variant = $_; [label($variant), map { $cell->($_, $variant) } @views] } @variants);
+    }
+    return table($caption, ['technique', map { label($_) } @variants],
+        map { my $k = $_; [$names[$k], map { $cell->($views[$k], $_) } @variants] } 0 .. $#views);
 }
 
 sub scene_html {
@@ -431,7 +440,9 @@ sub scene_html {
         my ($heading, @made) = @$_;
         push @html, qq(<h3>$heading</h3>\n<p class="key">$key</p>\n<div class="plots">\n), @made, "</div>\n" if @made;
     }
-    my @own = map { own_table($scene, $_) } @{$scene->{own}};
+    my @own = map { own_table($scene, $_, @{$scene->{views}}, @{$scene->{extra}}, 'path', '-') } @{$scene->{own}};
+    my @extra = map { own_table($scene, $_->[0], @{$scene->{extra}}) } @FIGURES;
+    push @html, qq(<h3>Views that are not pictured</h3>\n<div class="tables">\n), @extra, "</div>\n" if @extra;
     push @html, qq(<h3>This lesson's own measures</h3>\n<div class="tables">\n), @own, "</div>\n" if @own;
     return @html, "</section>\n";
 }
