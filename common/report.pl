@@ -25,7 +25,7 @@ my %STANDARD = map { $_->[0] => 1 } @FIGURES, ['truth_rmse'], ['truth_rmse_gauss
 # readers tell apart, without their black and yellow, which do not show on every ground. [number, sign] of gnuplot.
 my @COLOURS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8A7F72');
 my @SHAPES = ([7, '●'], [5, '■'], [9, '▲'], [13, '◆'], [11, '▼']);
-my ($folder, $css, @plots);
+my ($folder, $css, @plots, %lesson);
 
 sub stop { print STDERR "report.pl: $_[0]\n"; exit 1 }
 sub text { my $text = shift; $text =~ s/&/&amp;/g; $text =~ s/</&lt;/g; $text =~ s/"/&quot;/g; return $text }
@@ -253,31 +253,69 @@ END
     return qq(<a href="$svg"><img src="$svg" alt="$alt" width="400" height="300" loading="lazy"></a>\n);
 }
 
-# Error against cost, a plot for each view. An error of which only a limit is known is drawn at the limit.
+# Where a variant's time goes, C and GL together: what lessons can be compared by, for each holds its cost ratios
+# against a first technique of its own.
+sub whole_ns {
+    my $value = shift;
+    return defined $value->{ns_per_pixel} ? $value->{ns_per_pixel} + ($value->{prepare_ns_per_pixel} // 0) : undef;
+}
+
+# Lines of a plot of error against cost: for each technique of a scene [cost, error, label] by its knob's values. An
+# error of which only a limit is known stands at the limit.
+sub front {
+    my ($scene, $view, $metric, $cost) = @_;
+    my %lines;
+    for my $variant (@{$scene->{variants}}) {
+        my $value = $scene->{value}{$view}{$variant->{id}};
+        my ($x, $y) = ($cost->($value), $value->{$metric});
+        push @{$lines{$variant->{technique}{name}}}, [$x, max($y, limit($scene, $view, $metric)), $variant->{knob}]
+            if defined $x && defined $y;
+    }
+    return map { {technique => $scene->{technique}{$_}, data => $lines{$_}} } grep { $lines{$_} } @{$scene->{order}};
+}
+
+# Such a plot. Lines that are dashed come from another lesson.
+sub front_plot {
+    my ($lesson, $file, $title, $x_axis, $metric, $limit, @lines) = @_;
+    my @x = map { $_->[0] } map { @{$_->{data}} } @lines;
+    my @y = grep { $_ > 0 } map { $_->[1] } map { @{$_->{data}} } @lines or return;
+    my ($x0, $x1, $y0, $y1) = (min(@x) / 1.2, max(@x) * 1.5, min(@y) / 1.7, max(@y) * 1.7);
+    my $setup = "set logscale xy\nset xrange [$x0:$x1]\nset yrange [$y0:$y1]\n"
+        . 'set xtics (' . marks($x0, $x1) . ")\nset ytics (" . marks($y0, $y1) . ")\n";
+    $setup .= qq(set arrow from $x0, $limit to $x1, $limit nohead dt 3 lc rgb "#808080"\n)
+        . qq(set label "limit of the truth" at $x1, $limit right offset 0,-0.6 font ",11"\n) if $limit > $y0;
+    return plot($lesson, $file, $title, $x_axis, $metric =~ tr/_/ /r, $setup, map {
+        my ($t, $dash) = ($_->{technique}, $_->{dashed} ? 'dt 2 ' : '');
+        $_->[1] = max($_->[1], $y0 * 1.02) for @{$_->{data}};    # an error of 0 lies on the lower edge
+        {data => $_->{data}, style => qq(with linespoints lw 1.6 ${dash}ps 0.9 pt $t->{point} lc rgb "$t->{colour}")}
+    } @lines);
+}
+
+# Error against cost, a plot for each view.
 sub cost_plots {
     my ($lesson, $scene, $metric) = @_;
-    my @x = map { my $value = $_; map { $_->{cost_ratio} // () } values %$value } values %{$scene->{value}};
+    return map {
+        front_plot($lesson, "$scene->{name}-$_-$metric", $_, 'cost ratio', $metric, limit($scene, $_, $metric),
+            front($scene, $_, $metric, sub { $_[0]{cost_ratio} }));
+    } @{$scene->{views}};
+}
+
+# The same with the lines of each earlier lesson that measured this of a scene and view of the same names.
+sub compared_plots {
+    my ($lesson, $scene, $metric) = @_;
     my @html;
     for my $view (@{$scene->{views}}) {
-        my $limit = limit($scene, $view, $metric);
-        my %lines;
-        for my $variant (@{$scene->{variants}}) {
-            my ($x, $y) = @{$scene->{value}{$view}{$variant->{id}}}{'cost_ratio', $metric};
-            defined $y or next;
-            push @{$lines{$variant->{technique}{name}}}, [$x, max($y, $limit), $variant->{knob}];
+        my @others;
+        for my $other (map { $lesson{$_} } grep { $_ lt $lesson->{name} } sort keys %lesson) {
+            my ($same) = grep { $_->{name} eq $scene->{name} } @{$other->{scenes}};
+            my ($number) = $other->{name} =~ /^(\d+)/;
+            push @others, map {
+                $_->{data}[-1][2] = "$number $_->{technique}{name} $_->{data}[-1][2]";
+                {%$_, dashed => 1}
+            } front($same, $view, $metric, \&whole_ns) if $same;
         }
-        my @y = grep { $_ > 0 } map { $_->[1] } map { @$_ } values %lines or next;
-        my ($x0, $x1, $y0, $y1) = (min(@x) / 1.2, max(@x) * 1.5, min(@y) / 1.7, max(@y) * 1.7);
-        my $setup = "set logscale xy\nset xrange [$x0:$x1]\nset yrange [$y0:$y1]\n"
-            . 'set xtics (' . marks($x0, $x1) . ")\nset ytics (" . marks($y0, $y1) . ")\n";
-        $setup .= qq(set arrow from $x0, $limit to $x1, $limit nohead dt 3 lc rgb "#808080"\n)
-            . qq(set label "limit of the truth" at $x1, $limit right offset 0,-0.6 font ",11"\n) if $limit > $y0;
-        my @drawn = map {
-            my $t = $scene->{technique}{$_};
-            $_->[1] = max($_->[1], $y0 * 1.02) for @{$lines{$_}};    # an error of 0 lies on the lower edge
-            {data => $lines{$_}, style => qq(with linespoints lw 1.6 ps 0.9 pt $t->{point} lc rgb "$t->{colour}")}
-        } grep { $lines{$_} } @{$scene->{order}};
-        push @html, plot($lesson, "$scene->{name}-$view-$metric", $view, 'cost ratio', $metric =~ tr/_/ /r, $setup, @drawn);
+        push @html, front_plot($lesson, "$scene->{name}-$view-$metric-compared", $view, 'ns per pixel', $metric, 0,
+            @others, front($scene, $view, $metric, \&whole_ns)) if @others;
     }
     return @html;
 }
@@ -436,6 +474,9 @@ sub scene_html {
     for (['Error against cost', cost_plots($lesson, $scene, 'rmse')],
         ['Error against cost, for the Gaussian pixel', cost_plots($lesson, $scene, 'rmse_gaussian')],
         ['Error of the lookup against cost', cost_plots($lesson, $scene, 'uv_error_texels_rms')],
+        (map { ["<code>$_</code> against cost", cost_plots($lesson, $scene, $_)],
+               ["<code>$_</code> against time, beside earlier lessons (dashed)", compared_plots($lesson, $scene, $_)] }
+            grep { /^wrong_|error/ } @{$scene->{own}}),
         ['Curves', curve_plots($lesson, $scene)]) {
         my ($heading, @made) = @$_;
         push @html, qq(<h3>$heading</h3>\n<p class="key">$key</p>\n<div class="plots">\n), @made, "</div>\n" if @made;
@@ -585,7 +626,7 @@ my @others = defined $split ? grep { -e "$folder/$_.csv" } @names[$split + 1 .. 
 @pages or stop('usage: report.pl FOLDER LESSON... [-- LESSON...]');
 system("command -v $_ >/dev/null 2>&1") == 0 or stop("$_: not found; make install brings it") for qw(gnuplot pandoc);
 $css = slurp('common/report.css');
-my %lesson = map { $_ => load($_) } uniq @pages, @others;
+%lesson = map { $_ => load($_) } uniq @pages, @others;
 lesson_page($lesson{$_}) for @pages;
 my @all = sort keys %lesson;
 join_tables('', 'results', @all);
