@@ -36,6 +36,7 @@ typedef struct {
     const View *view; /* where the camera started: in a window the camera may have moved since */
     Camera camera;
     int width, height; /* pixels */
+    bool looking;      /* the picture gets a lookup; false while timed */
     Program *program;  /* in use while draw runs; NULL in prepare and paint */
 } Frame;
 

@@ -222,15 +222,16 @@ static void paint(const Frame *frame, Picture *picture) {
 }
 
 void stage_draw(Stage *stage, const Frame *frame, Picture *picture) {
-    if (frame->technique->prepare) frame->technique->prepare(frame);
-    if (frame->technique->paint) {
-        paint(frame, picture);
+    Frame drawn = *frame;
+    drawn.looking = picture->lookup.pixels != NULL;
+    if (drawn.technique->prepare) drawn.technique->prepare(&drawn);
+    if (drawn.technique->paint) {
+        paint(&drawn, picture);
         return;
     }
-    bool lookup = picture->lookup.pixels != NULL;
     const Target *target =
-        target_of(lookup ? &stage->full : &stage->plain, frame->width, frame->height, lookup);
-    draw(stage, frame, target);
+        target_of(drawn.looking ? &stage->full : &stage->plain, drawn.width, drawn.height, drawn.looking);
+    draw(stage, &drawn, target);
     target_read(target, picture);
 }
 
