@@ -113,6 +113,10 @@ const char *image_write_raw(const Image *image, const char *path, int bits) {
     return files_loaded()->write_raw(image, path, bits);
 }
 
+const char *image_write_relief(const Image *colour, const Image *height, const char *path, int bits) {
+    return files_loaded()->write_relief(colour, height, path, bits);
+}
+
 Image image_load(const char *path, ImageKind kind) {
     Image image;
     const char *refused = image_read(&image, path, kind);

@@ -116,19 +116,85 @@ static const char *check_size(const OIIO::ImageSpec &spec, int channels) {
     return nullptr;
 }
 
+/* What a file says under a name, "" when it says nothing. A reason is one line, so no other character is kept
+ * that could end it. */
+static std::string read_text(const OIIO::ImageSpec &spec, const char *name) {
+    const OIIO::ParamValue *attribute = spec.find_attribute(name);
+    std::string text = attribute ? attribute->get_string() : "";
+    for (char &c : text)
+        if ((unsigned char)c < ' ') c = '?';
+    return text;
+}
+
+/* Takes a number, finite, from the start of a text: unlike strtod, in every locale. */
+static bool take_number(const char **text, const char *end, double *number) {
+    auto [stop, error] = std::from_chars(*text, end, *number);
+    *text = stop;
+    return error == std::errc() && std::isfinite(*number);
+}
+
 /* A number that the file keeps as text, NAN when it keeps none. */
 static const char *read_number(const OIIO::ImageSpec &spec, const char *name, double *number) {
     *number = NAN;
-    const OIIO::ParamValue *attribute = spec.find_attribute(name);
-    if (!attribute) return nullptr;
-    std::string text = attribute->get_string();
-    const char *end = text.data() + text.size();
-    auto [stop, error] = std::from_chars(text.data(), end, *number); /* unlike strtod, in every locale */
-    if (error != std::errc() || stop != end || !std::isfinite(*number)) {
-        for (char &c : text)
-            if ((unsigned char)c < ' ') c = '?'; /* a reason is one line */
-        return reason("its %s is no number: \"%.40s\"", name, text.c_str());
+    if (!spec.find_attribute(name)) return nullptr;
+    std::string text = read_text(spec, name);
+    const char *at = text.data(), *end = at + text.size();
+    if (take_number(&at, end, number) && at == end) return nullptr;
+    return reason("its %s is no number: \"%.40s\"", name, text.c_str());
+}
+
+/* A relief's a, b and f span a volume: none is zero, nor in the plane of the other two. */
+static bool spans_volume(const Basis &basis) {
+    double volume = vec3_dot(vec3_cross(basis.a, basis.b), basis.f);
+    return fabs(volume) > 1e-9 * vec3_length(basis.a) * vec3_length(basis.b) * vec3_length(basis.f);
+}
+
+static const char *read_basis(const OIIO::ImageSpec &spec, Basis *basis) {
+    if (!spec.find_attribute("texel:basis")) return nullptr;
+    std::string text = read_text(spec, "texel:basis");
+    const char *at = text.data(), *end = at + text.size();
+    double numbers[12];
+    bool good = true;
+    for (int i = 0; i < 12 && good; i++) {
+        const char *before = at;
+        while (at < end && *at == ' ') at++;
+        good = (i == 0 || at > before) && take_number(&at, end, &numbers[i]);
     }
+    if (!good || at != end) return reason("its texel:basis is not 12 numbers: \"%.80s\"", text.c_str());
+    auto vector = [&](int i) { return v3(numbers[i], numbers[i + 1], numbers[i + 2]); };
+    basis->origin = vector(0), basis->a = vector(3), basis->b = vector(6), basis->f = vector(9);
+    if (!spans_volume(*basis)) return "its texel:basis spans no volume";
+    return nullptr;
+}
+
+/* A file is a relief texture when it says so; then it has a version that we know, and four channels. */
+static const char *read_is_relief(const OIIO::ImageSpec &spec, bool *relief) {
+    *relief = spec.find_attribute("texel:relief") != nullptr;
+    if (!*relief) return nullptr;
+    std::string version = read_text(spec, "texel:relief");
+    if (version != "1")
+        return reason("its texel:relief is \"%.40s\": version 1 is the one that is read", version.c_str());
+    if (spec.nchannels != 4)
+        return reason("a relief texture has four channels, but this file has %d", spec.nchannels);
+    return nullptr;
+}
+
+/* What a height map's file says about it goes into image; of basis, unit and hollow a relief texture's alone.
+ */
+static const char *read_about_height(const OIIO::ImageSpec &spec, bool relief, Image *image) {
+    const char *refused = read_number(spec, "texel:scale", &image->scale);
+    if (!refused) refused = read_number(spec, "texel:base", &image->base);
+    if (refused || !relief) return refused;
+    refused = read_basis(spec, &image->basis);
+    if (refused) return refused;
+    std::string unit = read_text(spec, "texel:unit"), hollow = read_text(spec, "texel:hollow");
+    if (unit.size() >= sizeof image->basis.unit)
+        return reason("its texel:unit is longer than %zu bytes: \"%.40s\"", sizeof image->basis.unit - 1,
+                      unit.c_str());
+    if (hollow != "" && hollow != "0" && hollow != "1")
+        return reason("its texel:hollow is neither 0 nor 1: \"%.40s\"", hollow.c_str());
+    strcpy(image->basis.unit, unit.c_str());
+    image->hollow = hollow == "1";
     return nullptr;
 }
 
@@ -149,22 +215,23 @@ static std::vector<float> integer_table(int count, bool srgb) {
     return table;
 }
 
-/* Reads the first `channels` channels as floats, the top row first. */
-static bool read_floats(OIIO::ImageInput &input, int channels, bool srgb, float *out) {
+/* Reads `channels` channels from `first` on as floats, the top row first. */
+static bool read_floats(OIIO::ImageInput &input, int first, int channels, bool srgb, float *out) {
     const OIIO::ImageSpec &spec = input.spec();
+    int end = first + channels;
     size_t count = (size_t)spec.width * spec.height * channels;
     if (spec.format == OIIO::TypeDesc::UINT8) {
         std::vector<uint8_t> codes(count);
-        if (!input.read_image(0, 0, 0, channels, spec.format, codes.data())) return false;
+        if (!input.read_image(0, 0, first, end, spec.format, codes.data())) return false;
         std::vector<float> table = integer_table(1 << 8, srgb);
         for (size_t i = 0; i < count; i++) out[i] = table[codes[i]];
     } else if (spec.format == OIIO::TypeDesc::UINT16) {
         std::vector<uint16_t> codes(count);
-        if (!input.read_image(0, 0, 0, channels, spec.format, codes.data())) return false;
+        if (!input.read_image(0, 0, first, end, spec.format, codes.data())) return false;
         std::vector<float> table = integer_table(1 << 16, srgb);
         for (size_t i = 0; i < count; i++) out[i] = table[codes[i]];
     } else {
-        if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, out)) return false;
+        if (!input.read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, out)) return false;
         if (srgb)
             for (size_t i = 0; i < count; i++) out[i] = (float)srgb_decode(out[i]);
     }
@@ -192,13 +259,16 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     const OIIO::ImageSpec &spec = input->spec();
     int channels = kind == IMAGE_RAW ? spec.nchannels : kind == IMAGE_HEIGHT ? 1 : spec.nchannels < 3 ? 1 : 3;
     refused = check_size(spec, channels);
-    double scale = NAN, base = NAN;
-    if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:scale", &scale);
-    if (kind == IMAGE_HEIGHT && !refused) refused = read_number(spec, "texel:base", &base);
+    bool relief = false;
+    if (kind != IMAGE_RAW && !refused) refused = read_is_relief(spec, &relief);
+    Image said = {};
+    said.scale = said.base = said.basis.a.x = NAN;
+    if (kind == IMAGE_HEIGHT && !refused) refused = read_about_height(spec, relief, &said);
     if (refused) return refused;
+    int first = kind == IMAGE_HEIGHT && relief ? 3 : 0;
 
     std::vector<float> stored((size_t)spec.width * spec.height * channels);
-    if (!read_floats(*input, channels, kind == IMAGE_COLOUR && is_srgb(spec), stored.data())) {
+    if (!read_floats(*input, first, channels, kind == IMAGE_COLOUR && is_srgb(spec), stored.data())) {
         input->geterror();
         return "the file is truncated or broken: not all of its pixels can be read";
     }
@@ -210,8 +280,10 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     Image result = image_create(spec.width, spec.height, kind == IMAGE_COLOUR ? 3 : channels);
     size_t bytes = spec.format.is_floating_point() ? 4 : spec.format.size();
     result.bits = bytes == 1 ? 8 : bytes == 2 ? 16 : 32;
-    result.scale = scale;
-    result.base = base;
+    result.scale = said.scale;
+    result.base = said.base;
+    result.basis = said.basis;
+    result.hollow = said.hollow;
     for (int y = 0; y < spec.height; y++) { /* the file's first row is the top one, ours the bottom one */
         const float *from = &stored[(size_t)(spec.height - 1 - y) * spec.width * channels];
         float *to = image_at(&result, 0, y);
@@ -303,6 +375,13 @@ static std::vector<Number> converted(const Image *image, int channels, Convert c
     return result;
 }
 
+/* What one number becomes in a file. */
+static float unit(float x) { return x > 0 ? x < 1 ? x : 1 : 0; } /* NaN becomes 0 */
+static float same(float x) { return x; }
+static uint8_t raw_byte(float x) { return (uint8_t)(unit(x) * 255.0 + 0.5); }
+static uint16_t raw_sixteen(float x) { return (uint16_t)(unit(x) * 65535.0 + 0.5); }
+static uint16_t srgb_sixteen(float x) { return (uint16_t)(srgb_encode(unit(x)) * 65535.0 + 0.5); }
+
 static OIIO::ImageSpec spec_of(const Image *image, int channels, OIIO::TypeDesc type) {
     OIIO::ImageSpec spec(image->width, image->height, channels, type);
     spec["compression"] = "none"; /* of EXR: floats hardly shrink, and it costs five times the time */
@@ -313,7 +392,7 @@ static OIIO::ImageSpec spec_of(const Image *image, int channels, OIIO::TypeDesc 
 }
 
 static const char *write_floats(const Image *image, const char *path, int channels, OIIO::ImageSpec spec) {
-    return encode(path, spec, converted<float>(image, channels, [](float x) { return x; }).data());
+    return encode(path, spec, converted<float>(image, channels, same).data());
 }
 
 /* The shortest text that reads back as the same double. */
@@ -322,7 +401,10 @@ static std::string number_text(double number) {
     return std::string(text, std::to_chars(text, text + sizeof text, number).ptr);
 }
 
-static float unit(float x) { return x > 0 ? x < 1 ? x : 1 : 0; } /* NaN becomes 0 */
+static void say_scale_and_base(const Image *height, OIIO::ImageSpec *spec) {
+    if (!std::isnan(height->scale)) (*spec)["texel:scale"] = number_text(height->scale);
+    if (!std::isnan(height->base)) (*spec)["texel:base"] = number_text(height->base);
+}
 
 /* Runs a body that may throw, with nothing printed by libraries. */
 template <typename Body> static const char *guarded(Body body) {
@@ -349,26 +431,94 @@ static const char *write(const Image *image, const char *path) {
     });
 }
 
+/* The type of raw numbers in a file; `bits` counts where the ending leaves a choice. */
+static OIIO::TypeDesc raw_type(const char *path, int bits) {
+    return has_ending(path, ".exr") ? OIIO::TypeDesc::FLOAT
+           : bits == 16             ? OIIO::TypeDesc::UINT16
+                                    : OIIO::TypeDesc::UINT8;
+}
+
 static const char *write_raw(const Image *image, const char *path, int bits) {
     return guarded([&]() -> const char * {
-        OIIO::TypeDesc type = has_ending(path, ".exr") ? OIIO::TypeDesc::FLOAT
-                              : bits == 16             ? OIIO::TypeDesc::UINT16
-                                                       : OIIO::TypeDesc::UINT8;
+        OIIO::TypeDesc type = raw_type(path, bits);
         if (type != OIIO::TypeDesc::FLOAT && !has_ending(path, ".png"))
             return "cannot be written: raw numbers are kept as .png or .exr";
         OIIO::ImageSpec spec = spec_of(image, image->channels, type);
-        if (!std::isnan(image->scale)) spec["texel:scale"] = number_text(image->scale);
-        if (!std::isnan(image->base)) spec["texel:base"] = number_text(image->base);
+        say_scale_and_base(image, &spec);
         if (type == OIIO::TypeDesc::FLOAT) return write_floats(image, path, image->channels, spec);
         if (type == OIIO::TypeDesc::UINT16)
-            return encode(path, spec, converted<uint16_t>(image, image->channels, [](float x) {
-                                          return (uint16_t)(unit(x) * 65535.0 + 0.5);
-                                      }).data());
-        return encode(path, spec, converted<uint8_t>(image, image->channels, [](float x) {
-                                      return (uint8_t)(unit(x) * 255.0 + 0.5);
-                                  }).data());
+            return encode(path, spec, converted<uint16_t>(image, image->channels, raw_sixteen).data());
+        return encode(path, spec, converted<uint8_t>(image, image->channels, raw_byte).data());
+    });
+}
+
+/* ---- Relief textures ---- */
+
+/* What the file says of the height of a relief texture. */
+static void say_relief(const Image *height, OIIO::ImageSpec *spec) {
+    (*spec)["texel:relief"] = "1";
+    say_scale_and_base(height, spec);
+    const Basis &basis = height->basis;
+    if (!std::isnan(basis.a.x)) {
+        std::string numbers;
+        for (Vec3 v : {basis.origin, basis.a, basis.b, basis.f})
+            for (double x : {v.x, v.y, v.z}) numbers += (numbers.empty() ? "" : " ") + number_text(x);
+        (*spec)["texel:basis"] = numbers;
+    }
+    if (basis.unit[0]) (*spec)["texel:unit"] = basis.unit;
+    if (height->hollow) (*spec)["texel:hollow"] = "1";
+}
+
+/* Colour and height side by side, rows as in `converted`; each has its own way to become a number. */
+template <typename Number, typename Encode, typename Keep>
+static std::vector<Number> interleaved(const Image *colour, const Image *height, Encode encode_colour,
+                                       Keep keep_height) {
+    std::vector<Number> colours = converted<Number>(colour, 3, encode_colour);
+    std::vector<Number> heights = converted<Number>(height, 1, keep_height), result;
+    result.reserve(4 * heights.size());
+    for (size_t i = 0; i < heights.size(); i++) {
+        result.insert(result.end(), &colours[3 * i], &colours[3 * i] + 3);
+        result.push_back(heights[i]);
+    }
+    return result;
+}
+
+static const char *check_relief(const Image *colour, const Image *height, const char *path,
+                                OIIO::TypeDesc type) {
+    if (type != OIIO::TypeDesc::FLOAT && !has_ending(path, ".png"))
+        return "cannot be written: relief textures are kept as .png or .exr";
+    if (colour->channels != 3 || height->channels != 1)
+        return "cannot be written: a relief texture is three channels of colour and one of height";
+    if (colour->width != height->width || colour->height != height->height)
+        return reason("cannot be written: the colour is %d x %d texels, the height %d x %d", colour->width,
+                      colour->height, height->width, height->height);
+    const Basis &basis = height->basis;
+    if (std::isnan(basis.a.x)) return nullptr;
+    if (!std::isfinite(basis.origin.x + basis.origin.y + basis.origin.z))
+        return "cannot be written: its basis is not finite";
+    if (!spans_volume(basis)) return "cannot be written: its basis spans no volume";
+    return nullptr;
+}
+
+static const char *write_relief(const Image *colour, const Image *height, const char *path, int bits) {
+    return guarded([&]() -> const char * {
+        OIIO::TypeDesc type = raw_type(path, bits);
+        const char *refused = check_relief(colour, height, path, type);
+        if (refused) return refused;
+        OIIO::ImageSpec spec = spec_of(colour, 4, type);
+        say_relief(height, &spec);
+        if (type == OIIO::TypeDesc::FLOAT) { /* named, or it would be taken for alpha by whoever reads it */
+            spec.channelnames = {"R", "G", "B", "height"};
+            spec.alpha_channel = -1;
+            return encode(path, spec, interleaved<float>(colour, height, same, unit).data());
+        }
+        spec["oiio:ColorSpace"] = "sRGB";
+        if (type == OIIO::TypeDesc::UINT16)
+            return encode(path, spec,
+                          interleaved<uint16_t>(colour, height, srgb_sixteen, raw_sixteen).data());
+        return encode(path, spec, interleaved<uint8_t>(colour, height, srgb_byte, raw_byte).data());
     });
 }
 
 /* What image.c asks this library for. */
-const ImageFiles image_files = {read, write, write_raw};
+const ImageFiles image_files = {read, write, write_raw, write_relief};

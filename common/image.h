@@ -13,8 +13,10 @@
 
 /* Where a relief texture lies in its own world, so that a height has a unit: the texel coordinates (u, v)
  * with height h are the point origin + u a + v b + scale |a| (h - base) f/|f|, u and v over 0..1. a, b and f
- * are the vectors of Oliveira, Bishop and McAllister 2000, a and b here over the whole image. unit names what
- * they are measured in ("m", "mm"), "" where the file says none. */
+ * are the vectors of Oliveira, Bishop and McAllister 2000, a and b here over the whole image. The length of f
+ * says how many times the relief is deeper than what it shows (1: as deep), so that the true displacement is
+ * scale |a| (h - base) / |f|. unit names what lengths are measured in ("m", "mm"), "" where the file says
+ * none. */
 typedef struct {
     Vec3 origin, a, b, f;
     char unit[16];
@@ -67,7 +69,9 @@ const char *image_write_raw(const Image *image, const char *path, int bits);
  * of the same size, clipped to 0..1), .png of bits 8 or 16 (colours are sRGB there) or .exr of floats. The
  * height's scale, base, basis and hollow go along as the string attributes texel:relief (the version, 1),
  * texel:scale, texel:base, texel:basis (twelve numbers: origin, a, b, f), texel:unit and texel:hollow.
- * image_read reads such a file as IMAGE_COLOUR and as IMAGE_HEIGHT. NULL or the reason, as above. */
+ * Those that the height does not say (NAN, "", false) are left out. image_read reads such a file as
+ * IMAGE_COLOUR and as IMAGE_HEIGHT. NULL or the reason, as above; among the reasons are two sizes and a basis
+ * that spans no volume. */
 const char *image_write_relief(const Image *colour, const Image *height, const char *path, int bits);
 
 /* The same, ending the program with "PATH: reason" instead of returning one. */

@@ -7,11 +7,12 @@
 
 #include "image.h"
 
-/* As image_read, image_write and image_write_raw in image.h. */
+/* As image_read, image_write, image_write_raw and image_write_relief in image.h. */
 typedef struct {
     const char *(*read)(Image *image, const char *path, ImageKind kind);
     const char *(*write)(const Image *image, const char *path);
     const char *(*write_raw)(const Image *image, const char *path, int bits);
+    const char *(*write_relief)(const Image *colour, const Image *height, const char *path, int bits);
 } ImageFiles;
 
 extern const ImageFiles image_files;

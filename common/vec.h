@@ -21,8 +21,15 @@ typedef struct {
     Vec3 origin, direction;
 } Ray;
 
-static inline Vec2 v2(double x, double y) { return (Vec2){x, y}; }
-static inline Vec3 v3(double x, double y, double z) { return (Vec3){x, y, z}; }
+/* (Declared, then returned: C++ reads this too, and has no compound literals.) */
+static inline Vec2 v2(double x, double y) {
+    Vec2 v = {x, y};
+    return v;
+}
+static inline Vec3 v3(double x, double y, double z) {
+    Vec3 v = {x, y, z};
+    return v;
+}
 static inline Vec3 vec3_add(Vec3 a, Vec3 b) { return v3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Vec3 vec3_sub(Vec3 a, Vec3 b) { return v3(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline Vec3 vec3_scale(Vec3 a, double s) { return v3(a.x * s, a.y * s, a.z * s); }

@@ -10,6 +10,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <locale.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -631,6 +632,256 @@ static void same_image_same_file(void **state) {
     image_destroy(&image);
 }
 
+/* ---- Relief textures ----------------------------------------------------------------------------------- */
+
+/* A skew basis of numbers that no decimal holds, with f below the plane of a and b. */
+static Basis skew(void) {
+    return (Basis){.origin = v3(-1 / 3.0, 1e-300, 1e6 / 7),
+                   .a = v3(sqrt(2), 0.1, -1e-3),
+                   .b = v3(-0.7, PI, 1 / 7.0),
+                   .f = v3(0.25, 0.1, -exp(1)),
+                   .unit = "mm"};
+}
+
+static Image relief_height(int width, int height) {
+    Image image = pattern(width, height, 1);
+    for (int i = 0; i < width * height; i++) image.pixels[i] /= 2;
+    image.pixels[0] = 0; /* where a program that takes height for alpha would lose the colour */
+    image.pixels[width * height - 1] = 1;
+    image.scale = 0.1, image.base = 1 / 3.0;
+    image.basis = skew();
+    image.hollow = true;
+    return image;
+}
+
+static void assert_basis(const Basis *one, const Basis *other) {
+    const Vec3 *a[] = {&one->origin, &one->a, &one->b, &one->f};
+    const Vec3 *b[] = {&other->origin, &other->a, &other->b, &other->f};
+    for (int i = 0; i < 4; i++) /* to the last bit */
+        assert_true(a[i]->x == b[i]->x && a[i]->y == b[i]->y && a[i]->z == b[i]->z);
+    assert_string_equal(one->unit, other->unit);
+}
+
+/* Each number within `colour` codes of sRGB, and within `height`. */
+static void assert_relief(const char *path, int bits, const Image *colour, const Image *height,
+                          double colour_bound, double height_bound) {
+    Image c = image_load(path, IMAGE_COLOUR), h = image_load(path, IMAGE_HEIGHT);
+    assert_image(&c, colour->width, colour->height, 3, bits);
+    assert_image(&h, colour->width, colour->height, 1, bits);
+    for (int i = 0; i < 3 * c.width * c.height; i++)
+        assert_float_equal(srgb_encode(c.pixels[i]), srgb_encode(colour->pixels[i]), colour_bound);
+    for (int i = 0; i < h.width * h.height; i++)
+        assert_float_equal(h.pixels[i], height->pixels[i], height_bound);
+    assert_true(h.scale == height->scale && h.base == height->base && h.hollow == height->hollow);
+    assert_basis(&h.basis, &height->basis);
+    assert_true(isnan(c.scale) && isnan(c.base) && isnan(c.basis.a.x) && !c.hollow);
+    image_destroy(&c), image_destroy(&h);
+}
+
+static void reliefs_survive(void **state) {
+    (void)state;
+    Image colour = pattern(13, 7, 3), height = relief_height(13, 7);
+    const char *png = in_folder("r.png"), *exr = in_folder("r.exr");
+    assert_null(image_write_relief(&colour, &height, png, 8));
+    assert_relief(png, 8, &colour, &height, 0.501 / 255, 0.501 / 255);
+    assert_null(image_write_relief(&colour, &height, png, 16));
+    assert_relief(png, 16, &colour, &height, 0.501 / 65535, 0.501 / 65535);
+    assert_null(image_write_relief(&colour, &height, exr, 32));
+    assert_relief(exr, 32, &colour, &height, 0, 0);
+
+    Image raw = image_load(exr, IMAGE_RAW); /* and the four channels as they are stored */
+    assert_image(&raw, 13, 7, 4, 32);
+    for (int i = 0; i < 13 * 7; i++) {
+        assert_memory_equal(raw.pixels + 4 * i, colour.pixels + 3 * i, 3 * sizeof(float));
+        assert_true(raw.pixels[4 * i + 3] == height.pixels[i]);
+    }
+    image_destroy(&raw), image_destroy(&colour), image_destroy(&height);
+}
+
+/* What is read is written again as the same bytes, where heights are 0 too; and nothing drifts. */
+static void reliefs_are_read_and_written_alike(void **state) {
+    (void)state;
+    static Bytes again;
+    const char *names[] = {"a8.png", "a16.png", "a.exr"};
+    Image colour = pattern(13, 7, 3), height = relief_height(13, 7);
+    for (int n = 0; n < 3; n++) {
+        const char *path = in_folder(names[n]);
+        assert_null(image_write_relief(&colour, &height, path, n == 0 ? 8 : 16));
+        file_read(path, &scratch);
+        Image c = image_load(path, IMAGE_COLOUR), h = image_load(path, IMAGE_HEIGHT);
+        assert_null(image_write_relief(&c, &h, path, n == 0 ? 8 : 16));
+        file_read(path, &again);
+        assert_int_equal(again.size, scratch.size);
+        assert_memory_equal(again.bytes, scratch.bytes, again.size);
+        image_destroy(&c), image_destroy(&h);
+    }
+    image_destroy(&colour), image_destroy(&height);
+}
+
+/* Every code that a file can hold, at height 0: 8 and 16 bits, decoded, then encoded. */
+static void colour_survives_where_height_is_0(void **state) {
+    (void)state;
+    const char *path = in_folder("zero.png");
+    for (int bits = 8; bits <= 16; bits += 8) {
+        int side = bits == 8 ? 16 : 256, top = side * side - 1;
+        Image colour = image_create(side, side, 3), height = image_create(side, side, 1);
+        for (int i = 0; i <= top; i++)
+            for (int c = 0; c < 3; c++)
+                colour.pixels[3 * i + c] = (float)srgb_decode((c ? top - i : i) / (double)top);
+        assert_null(image_write_relief(&colour, &height, path, bits));
+        Image raw = image_load(path, IMAGE_RAW);
+        assert_image(&raw, side, side, 4, bits);
+        for (int i = 0; i <= top; i++)
+            for (int c = 0; c < 4; c++)
+                assert_int_equal(lrint(raw.pixels[4 * i + c] * (double)top), c == 3 ? 0 : c ? top - i : i);
+        image_destroy(&raw), image_destroy(&colour), image_destroy(&height);
+    }
+}
+
+static void a_relief_may_say_little(void **state) {
+    (void)state;
+    Image colour = pattern(3, 2, 3), height = pattern(3, 2, 1);
+    const char *names[] = {"little.png", "little.exr"};
+    for (int n = 0; n < 2; n++) {
+        assert_null(image_write_relief(&colour, &height, in_folder(names[n]), 8));
+        Image read = image_load(in_folder(names[n]), IMAGE_HEIGHT);
+        assert_true(isnan(read.scale) && isnan(read.base) && isnan(read.basis.a.x) && !read.hollow);
+        assert_string_equal(read.basis.unit, "");
+        assert_float_equal(read.pixels[1], height.pixels[1], 0.501 / 255);
+        image_destroy(&read);
+    }
+    image_destroy(&colour), image_destroy(&height);
+}
+
+static void numbers_are_the_same_in_every_locale(void **state) {
+    (void)state;
+    const char *comma[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "fi_FI.UTF-8", "de_DE.utf8"};
+    for (size_t i = 0; i < sizeof comma / sizeof *comma; i++)
+        if (setlocale(LC_ALL, comma[i])) break; /* where the machine has one */
+    Image colour = pattern(2, 2, 3), height = relief_height(2, 2);
+    assert_null(image_write_relief(&colour, &height, in_folder("l.png"), 8));
+    Image read = image_load(in_folder("l.png"), IMAGE_HEIGHT);
+    setlocale(LC_ALL, "C");
+    assert_basis(&read.basis, &height.basis);
+    assert_true(read.scale == 0.1 && read.base == 1 / 3.0);
+    file_read(in_folder("l.png"), &scratch);
+    assert_non_null(memmem(scratch.bytes, scratch.size, "texel:scale\0000.1", 15));
+    image_destroy(&read), image_destroy(&colour), image_destroy(&height);
+}
+
+/* A relief of one texel by hand, whose text chunk `name` says `said`; version: what texel:relief says. */
+static const char *relief_make(int channels, const char *version, const char *name, const char *said) {
+    const char *path = in_folder("hand.png");
+    static Bytes chunks, file;
+    char text[600];
+    int size = snprintf(text, sizeof text, "texel:relief%c%s", 0, version);
+    png_make(path, 1, 1, channels, (unsigned char[]){200, 100, 50, 51}, "tEXt", text, (size_t)size);
+    size = snprintf(text, sizeof text, "%s%c%s", name, 0, said);
+    chunks.size = 0;
+    put_chunk(&chunks, "tEXt", text, (size_t)size);
+    file_read(path, &file);
+    memmove(file.bytes + 33 + chunks.size, file.bytes + 33, file.size - 33); /* after IHDR */
+    memcpy(file.bytes + 33, chunks.bytes, chunks.size);
+    file_write(path, file.bytes, file.size + chunks.size);
+    return path;
+}
+
+static void reads_reliefs_made_by_hand(void **state) {
+    (void)state;
+    const char *path = relief_make(4, "1", "texel:basis", "1 2 3 4 0 0 0 -5 0 0 0 -1e0");
+    Image colour = image_load(path, IMAGE_COLOUR), height = image_load(path, IMAGE_HEIGHT);
+    assert_true(colour.pixels[2] == (float)srgb_decode(50 / 255.0));
+    assert_true(height.pixels[0] == (float)(51 / 255.0));
+    const Basis basis = {v3(1, 2, 3), v3(4, 0, 0), v3(0, -5, 0), v3(0, 0, -1), ""};
+    assert_basis(&height.basis, &basis);
+    image_destroy(&colour), image_destroy(&height);
+    height = image_load(relief_make(4, "1", "texel:basis", "  1 2 3   4 0 0 0 1 0 0 0 1"), IMAGE_HEIGHT);
+    assert_true(height.basis.origin.x == 1 && height.basis.a.x == 4 && height.basis.f.z == 1);
+    image_destroy(&height);
+    height = image_load(relief_make(4, "1", "texel:hollow", "0"), IMAGE_HEIGHT);
+    assert_false(height.hollow);
+    image_destroy(&height);
+
+    const char *basis_only = "texel:basis\0one two"; /* without texel:relief, an RGBA image is none */
+    path = in_folder("plain.png");
+    png_make(path, 1, 1, 4, (unsigned char[]){200, 100, 50, 51}, "tEXt", basis_only, 19);
+    height = image_load(path, IMAGE_HEIGHT);
+    assert_true(height.pixels[0] == (float)(200 / 255.0) && isnan(height.basis.a.x));
+    image_destroy(&height);
+}
+
+static void refuses_bad_reliefs(void **state) {
+    (void)state;
+    const struct {
+        const char *name, *said;
+    } bad[] = {
+        {"texel:basis", ""},
+        {"texel:basis", "1"},
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0"},     /* eleven numbers */
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 1 7"}, /* thirteen */
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 1,"},  /* something after them */
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 1x"},
+        {"texel:basis", "0,0,0,1,0,0,0,1,0,0,0,1"},
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 nan"},
+        {"texel:basis", "0 0 inf 1 0 0 0 1 0 0 0 1"},
+        {"texel:basis", "0 0 1e999 1 0 0 0 1 0 0 0 1"},
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 one"},
+        {"texel:basis", "0 0 0 0 0 0 0 1 0 0 0 1"},         /* a is nothing */
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 0 0 0"},         /* f is nothing */
+        {"texel:basis", "0 0 0 1 0 0 2 0 0 0 0 1"},         /* a along b */
+        {"texel:basis", "0 0 0 1 0 0 0 1 0 3 5 0"},         /* f in their plane */
+        {"texel:basis", "0 0 0 1e200 0 0 0 1e200 0 0 0 1"}, /* too large to compute with */
+        {"texel:scale", "deep"},
+        {"texel:base", "1,5"},
+        {"texel:unit", "nautical miles, English ones"},
+        {"texel:hollow", "yes"},
+        {"texel:hollow", "2"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const char *path = relief_make(4, "1", bad[i].name, bad[i].said);
+        assert_refused(path, IMAGE_HEIGHT, bad[i].name);
+        Image image = image_load(path, IMAGE_COLOUR); /* where it does not matter */
+        image_destroy(&image);
+    }
+    char endless[501] = {0}; /* a reason stays short, and one line */
+    memset(endless, '1', 500);
+    endless[250] = '\n';
+    assert_refused(relief_make(4, "1", "texel:basis", endless), IMAGE_HEIGHT, "12 numbers");
+
+    const char *versions[] = {"2", "0", "", "1.0", "-1", "yes"};
+    for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
+        const char *path = relief_make(4, versions[i], "texel:scale", "0.1");
+        assert_refused(path, IMAGE_HEIGHT, "texel:relief is \"");
+        assert_refused(path, IMAGE_COLOUR, "version 1");
+        Image image = image_load(path, IMAGE_RAW); /* as it is stored, whatever it means */
+        image_destroy(&image);
+    }
+    for (int channels = 1; channels <= 3; channels += 2) {
+        const char *path = relief_make(channels, "1", "texel:scale", "0.1");
+        assert_refused(path, IMAGE_HEIGHT, "four channels");
+        assert_refused(path, IMAGE_COLOUR, "four channels");
+    }
+}
+
+static void refuses_to_write_bad_reliefs(void **state) {
+    (void)state;
+    folder_count(true);
+    Image colour = pattern(4, 3, 3), height = relief_height(4, 3), other = relief_height(3, 4);
+    const char *path = in_folder("no.png");
+    assert_says(image_write_relief(&colour, &other, path, 8), "the colour is 4 x 3 texels, the height 3 x 4");
+    assert_says(image_write_relief(&height, &height, path, 8), "three channels");
+    assert_says(image_write_relief(&colour, &colour, path, 8), "three channels");
+    assert_says(image_write_relief(&colour, &height, in_folder("no.jpg"), 8), ".png or .exr");
+    assert_says(image_write_relief(&colour, &height, in_folder("no/no.png"), 8), "No such file");
+    height.basis.f = height.basis.a;
+    assert_says(image_write_relief(&colour, &height, path, 8), "volume");
+    height.basis = skew();
+    height.basis.origin.y = NAN;
+    assert_says(image_write_relief(&colour, &height, path, 8), "finite");
+    assert_int_equal(folder_count(false), 0);
+    image_destroy(&colour), image_destroy(&height), image_destroy(&other);
+}
+
 /* ---- Sampling ------------------------------------------------------------------------------------------ */
 
 static double sample(const Image *image, double u, double v) {
@@ -702,6 +953,14 @@ int main(int argc, char **argv) {
         cmocka_unit_test(refuses_bad_scale_and_base),
         cmocka_unit_test(writes_whole_or_not_at_all),
         cmocka_unit_test(same_image_same_file),
+        cmocka_unit_test(reliefs_survive),
+        cmocka_unit_test(reliefs_are_read_and_written_alike),
+        cmocka_unit_test(colour_survives_where_height_is_0),
+        cmocka_unit_test(a_relief_may_say_little),
+        cmocka_unit_test(numbers_are_the_same_in_every_locale),
+        cmocka_unit_test(reads_reliefs_made_by_hand),
+        cmocka_unit_test(refuses_bad_reliefs),
+        cmocka_unit_test(refuses_to_write_bad_reliefs),
         cmocka_unit_test(samples_between_texels),
     };
     return cmocka_run_group_tests_name("image", tests, folder_make, folder_remove);
