@@ -4,8 +4,10 @@
  * pairs of planes. */
 #include "solid.h"
 
-/* Where a line is inside, from the point at enter to the one at leave, and the outward normals there; the
- * normals count only where the ends are finite. */
+#include <float.h>
+
+/* Where a line is inside, from the point at enter to the one at leave, and the outward normals there, of any
+ * length; they count only where the ends are finite. */
 typedef struct {
     double enter, leave;
     Vec3 enter_normal, leave_normal;
@@ -36,18 +38,16 @@ static Span span_between(double x, double dx, double half, Vec3 axis) {
 }
 
 /* Within a radius of the origin: the roots of |at + t way|^2 = radius^2. Their discriminant is written by a
- * cross product, which does not cancel as b^2 - a c would; and of the two roots the one that would cancel is
- * had from their product c / a. */
+ * cross product, which does not cancel as b^2 - a c would, far from the origin along something thin. */
 static Span span_round(Vec3 at, Vec3 way, double radius) {
-    double a = vec3_dot(way, way), b = vec3_dot(at, way), c = vec3_dot(at, at) - radius * radius;
-    if (a == 0.0) return c <= 0.0 ? everywhere : nowhere; /* along a cylinder's axis */
+    double a = vec3_dot(way, way), b = vec3_dot(at, way);
+    if (a < DBL_MIN) return vec3_length(at) <= radius ? everywhere : nowhere; /* along a cylinder's axis */
     Vec3 moment = vec3_cross(at, way);
     double discriminant = a * radius * radius - vec3_dot(moment, moment);
     if (!(discriminant >= 0.0)) return nowhere;
-    double q = -(b + copysign(sqrt(discriminant), b)), far = q / a, near = q == 0.0 ? 0.0 : c / q;
-    Span span = {.enter = fmin(far, near), .leave = fmax(far, near)};
-    span.enter_normal = vec3_scale(vec3_add(at, vec3_scale(way, span.enter)), 1.0 / radius);
-    span.leave_normal = vec3_scale(vec3_add(at, vec3_scale(way, span.leave)), 1.0 / radius);
+    Span span = {.enter = (-b - sqrt(discriminant)) / a, .leave = (-b + sqrt(discriminant)) / a};
+    span.enter_normal = vec3_add(at, vec3_scale(way, span.enter));
+    span.leave_normal = vec3_add(at, vec3_scale(way, span.leave));
     return span;
 }
 
