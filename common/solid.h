@@ -24,10 +24,10 @@ typedef struct {
     int index;    /* of the solid */
 } SolidHit;
 
-/* The first crossing with depth >= 0 of a ray with the surface of one of the solids, from outside or inside it;
- * where they overlap, each still has the whole of its surface. Of a ray that begins on a surface, rounding
- * decides whether it is met there. False, and hit as it was, where nothing is met. May be called from many
- * threads. */
+/* The first crossing with depth >= 0 of a ray with the surface of one of the solids, from outside or inside
+ * it; where they overlap, each still has the whole of its surface. Of a ray that begins on a surface,
+ * rounding decides whether it is met there. False, and hit as it was, where nothing is met. May be called
+ * from many threads. */
 bool solids_hit(const Solid *solids, int count, Ray ray, SolidHit *hit);
 
 #endif
