@@ -26,7 +26,7 @@ PrewarpFactors prewarp_factors(const Plane *source, Eye eye) {
     Vec3 c = away(source->origin, eye);
     if (!is_possible(source, c)) return (PrewarpFactors){0};
     Vec3 k = in_basis(source, c, source->f);
-    return (PrewarpFactors){k.x, k.y, eye.w > 0.0 ? k.z : 0.0, true};
+    return (PrewarpFactors){k.x, k.y, eye.w > 0.0 ? k.z : 0.0, true, k.z > 0.0};
 }
 
 PrewarpMap prewarp_map(const Plane *source, const Plane *target, Eye eye) {

@@ -25,10 +25,15 @@ typedef struct {
 
 /* u_i = (u_s + k1 d) / (1 + k3 d), v_i = (v_s + k2 d) / (1 + k3 d), where
  *     k1 = f.(b x c) / a.(b x c),  k2 = f.(c x a) / a.(b x c),  k3 = 1 / (c.f) for orthogonal f
- * with c = C_s - C_t, or the direction from the eye for one infinitely far, where k3 is 0. */
+ * with c = C_s - C_t, or the direction from the eye for one infinitely far, where k3 is 0.
+ *
+ * What has 1 + k3 d of zero or less is beside or behind the eye: it is not seen. Of points that land on one
+ * another, all on one ray, the one with the greatest d is nearest to an eye on the side that f points to, and
+ * the one with the least d to an eye behind: 1 + k3 d is their distance, up to a factor. */
 typedef struct {
     double k1, k2, k3;
     bool possible; /* false where the eye lies in the source plane: a.(b x c) is 0, nothing can be warped */
+    bool behind;   /* the eye is on the side that f points away from; k3 is positive, or 0 at infinity */
 } PrewarpFactors;
 
 PrewarpFactors prewarp_factors(const Plane *source, Eye eye);
