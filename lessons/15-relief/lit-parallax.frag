@@ -1,0 +1,3 @@
+#include "lit.inc"
+
+float search(HeightRay ray) { return parallax(height_map, ray, base); }

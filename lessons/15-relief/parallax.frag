@@ -1,0 +1,3 @@
+#include "march.inc"
+
+float search(HeightRay ray) { return parallax(height_map, ray, base); }

@@ -1,0 +1,128 @@
+#include "relief.h"
+
+#include "fail.h"
+
+#include <stdlib.h>
+
+static const double AMBIENT = 0.2; /* the light that shadows have too */
+
+/* ---- Loading ---- */
+
+/* From the upper left at first, then around the normal once in 12 s. */
+static Vec3 light_after(double seconds) {
+    double angle = radians(148.0 + 30.0 * seconds), tangent = 1.2;
+    return vec3_normalize(v3(tangent * cos(angle), tangent * sin(angle), 1.0));
+}
+
+static Field *load(const Options *options) {
+    Field *field = allocate(1, sizeof *field);
+    wall_load(&field->wall, options);
+    field->light = light_after(0.0);
+    return field;
+}
+
+void *relief_load(const Options *options) { return load(options); }
+
+void *relief_load_lit(const Options *options) {
+    Field *field = load(options);
+    field->lit = true;
+    return field;
+}
+
+void *relief_load_cut(const Options *options) {
+    Field *field = load(options);
+    field->wall.relief.extent = RELIEF_CUT;
+    field->wall.relief.base = 1.0; /* a ray that comes in over an edge would be cut at both ends */
+    return field;
+}
+
+void relief_unload(void *data) {
+    Field *field = data;
+    wall_unload(&field->wall);
+    free(field);
+}
+
+/* ---- Drawing ---- */
+
+void relief_draw(const Frame *frame) {
+    const Field *field = frame->data;
+    wall_bind(&field->wall, frame->program);
+    program_vector(frame->program, "light", field->light.x, field->light.y, field->light.z, 0);
+    program_number(frame->program, "ambient", AMBIENT);
+    /* How much higher than the point the light's ray must be stopped: what the two searches may differ by. */
+    program_number(frame->program, "bias", 0.005);
+    shape_draw(&field->wall.polygon);
+}
+
+void relief_move(void *data, double seconds) {
+    Field *field = data;
+    field->light = light_after(seconds);
+}
+
+/* ---- The truth ---- */
+
+bool relief_is_lit(const Relief *relief, Vec3 light, double u, double v) {
+    double h, width = relief->width, height = relief->width * relief->aspect;
+    image_sample(relief->height, u, v, &h);
+    double z = width * relief->scale * (h - relief->base);
+    /* The light's ray crosses the polygon at (x, y), which the relief's repetition moves into its rectangle.
+     */
+    double x = (u - 0.5) * width - z * light.x / light.z, y = (v - 0.5) * height - z * light.y / light.z;
+    x -= width * floor(x / width + 0.5), y -= height * floor(y / height + 0.5);
+    double far = 2.0 * width; /* above all of it, scale being at most 10 */
+    far += width * relief->scale / light.z;
+    Ray ray = {vec3_add(v3(x, y, 0), vec3_scale(light, far)), vec3_scale(light, -1.0)};
+    Sample met = truth_relief(relief, ray);
+    return met.hit && met.depth > far - z / light.z - 1e-6 * width;
+}
+
+Sample relief_truth(const void *data, Ray ray) {
+    const Field *field = data;
+    Sample sample = wall_truth(&field->wall, ray);
+    if (!sample.hit || !field->lit) return sample;
+    double lit = vec3_dot(truth_relief_normal(&field->wall.relief, sample.u, sample.v), field->light);
+    if (lit < 0.0 || !relief_is_lit(&field->wall.relief, field->light, sample.u, sample.v)) lit = 0.0;
+    sample.colour = vec3_scale(sample.colour, AMBIENT + (1.0 - AMBIENT) * lit);
+    return sample;
+}
+
+Vec2 relief_texels(const void *data) {
+    const Field *field = data;
+    return v2(field->wall.height_image.width, field->wall.height_image.height);
+}
+
+/* ---- The lesson's own metrics ---- */
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+HitErrors relief_errors(const Image *lookup, const Sample *exact, Vec2 texels) {
+    size_t count = (size_t)lookup->width * lookup->height, either = 0, both = 0, wrong = 0;
+    double *errors = allocate(count, sizeof *errors);
+    for (size_t i = 0; i < count; i++) {
+        const float *found = lookup->pixels + 4 * i;
+        bool hit = found[3] > 0.5f;
+        if (exact[i].unknown || !(hit || exact[i].hit)) continue;
+        either++;
+        double error = hypot((found[0] - exact[i].u) * texels.x, (found[1] - exact[i].v) * texels.y);
+        wrong += hit != exact[i].hit || !(error <= 1.0);
+        if (hit && exact[i].hit) errors[both++] = error;
+    }
+    qsort(errors, both, sizeof *errors, by_size);
+    HitErrors result = {either ? 100.0 * (double)wrong / (double)either : 0.0,
+                        both ? errors[(size_t)(0.99 * (double)(both - 1))] : 0.0};
+    free(errors);
+    return result;
+}
+
+void relief_measure(const Shots *shots, Table *table) {
+    for (int i = 0; i < shots->count; i++) {
+        const Shot *shot = &shots->shots[i];
+        HitErrors errors =
+            relief_errors(&shot->picture.lookup, shot->centres, relief_texels(shots->frame->data));
+        table_add(table, shots, shot->view, "wrong_hit_percent", errors.wrong_percent, "%");
+        table_add(table, shots, shot->view, "hit_error_texels_p99", errors.p99, "texels");
+    }
+}

@@ -1,0 +1,41 @@
+/* What the lesson adds to the wall (common/wall.h): the maps that fast searches stand on, a light, and what
+ * is measured of a picture. */
+#ifndef LESSON_RELIEF_H
+#define LESSON_RELIEF_H
+
+#include "wall.h"
+
+typedef struct {
+    Wall wall;
+    bool lit;
+    Vec3 light; /* unit, toward it, in the polygon's frame */
+} Field;
+
+/* For techniques of the scene `shadow`: with SHADOWED the light's own ray is followed too. */
+enum { UNSHADOWED, SHADOWED };
+
+/* Scene callbacks, see lesson.h. The polygon is the relief's top (base 1, or what the file says). */
+void *relief_load(const Options *options);
+void *relief_load_lit(const Options *options);
+void *relief_load_cut(const Options *options); /* it ends with the polygon; base 1 whatever the file says */
+void relief_unload(void *data);
+void relief_draw(const Frame *frame);
+void relief_move(void *data, double seconds); /* the light, once around in 12 s */
+Sample relief_truth(const void *data, Ray ray);
+Vec2 relief_texels(const void *data); /* the height map's size */
+void relief_measure(const Shots *shots, Table *table);
+
+/* Whether no part of the relief stands between the point of its surface at (u, v) and the light. */
+bool relief_is_lit(const Relief *relief, Vec3 light, double u, double v);
+
+/* How far searches were from the exact hits, in texels of the height map: a wrong one is more than one texel
+ * off, or a hit where there is none, or none where there is one. */
+typedef struct {
+    double wrong_percent; /* of the pixels that either hits */
+    double p99;           /* the error that 99 % of the hits of both stay below */
+} HitErrors;
+
+/* lookup has four channels (see Picture); exact the truth along the centre of each of its pixels. */
+HitErrors relief_errors(const Image *lookup, const Sample *exact, Vec2 texels);
+
+#endif
