@@ -80,7 +80,12 @@ typedef struct {
     const Frame *frame; /* technique, knob, data, size; its camera and view belong to the first shot */
     const Shot *shots;
     int count;
+    const struct Only *only; /* for shots_want */
 } Shots;
+
+/* Whether anybody asks for that row (see --only): what takes long to measure should not be otherwise. view
+ * NULL where the figure belongs to none. */
+bool shots_want(const Shots *shots, const View *view, const char *metric);
 
 typedef struct Table Table;
 

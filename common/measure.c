@@ -233,7 +233,8 @@ static void measure_errors(Session *session, int v) {
         progress_step(session->stage.lesson, scene->name);
     }
     if (!measuring) return;
-    if (scene->measure) scene->measure(&(Shots){&first, shots, session->view_count}, session->table);
+    if (scene->measure)
+        scene->measure(&(Shots){&first, shots, session->view_count, session->choice->only}, session->table);
     for (int i = 0; i < session->view_count; i++) picture_destroy(&shots[i].picture);
 }
 

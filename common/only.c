@@ -2,6 +2,7 @@
 #include "only.h"
 
 #include "fail.h"
+#include "lesson.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -75,4 +76,10 @@ bool only_wants(const Only *only, const char *scene, const char *technique, doub
             return true;
     }
     return false;
+}
+
+bool shots_want(const Shots *shots, const View *view, const char *metric) {
+    const Frame *frame = shots->frame;
+    return only_wants(shots->only, frame->scene->name, frame->technique->name, frame->knob,
+                      view ? view->name : "-", metric);
 }
