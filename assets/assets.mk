@@ -1,16 +1,16 @@
 # What makes build/assets: included by the Makefile. ASSETS is every image that a lesson may ask for.
 
-GENERATED := $(addprefix $(B)/assets/,checker.png zone-plate.png uv-grid.png soft-height.png \
+GENERATED := $(addprefix $(B)/assets/,checker.png zone-plate.png uv-grid.png soft-height.png pins-height.png \
 	brick-colour.png brick-height.png brick-normal.png \
 	brick-256-colour.png brick-256-height.png brick-256-normal.png)
 fetched_rows := NR > 1 && $$NF !~ /^later/ { print $$1 }
 FETCHED := $(addprefix $(B)/assets/,$(shell awk -F, '$(fetched_rows)' assets/manifest.csv))
-STEREO := $(addprefix $(B)/assets/,stereo-colour.png stereo-height.exr stereo-mask.png)
-ASSETS := $(GENERATED) $(FETCHED) $(STEREO)
+STEREO := $(addprefix $(B)/assets/,stereo-colour.png stereo-height.exr stereo-mask.png stereo-relief.exr)
+ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(B)/assets/terrain-relief.png
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo: $(B)/%: assets/%.c | $(LIBRARIES)
+$(B)/generate $(B)/stereo $(B)/terrain: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
 		$(LDFLAGS) -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
@@ -30,8 +30,12 @@ $(STEREO) &: $(B)/stereo $(B)/assets/motorcycle_left.png $(B)/assets/motorcycle_
 	$(call say,STEREO,$(B)/assets)
 	$(Q)$(B)/stereo $(B)/assets >$(B)/stereo.log
 
+$(B)/assets/terrain-relief.png: $(B)/terrain $(B)/assets/topography.png
+	$(call say,TERRAIN,$@)
+	$(Q)$(B)/terrain $(B)/assets >$(B)/terrain.log
+
 # A .npz is a zip archive; unzip checks what it unpacks.
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz
 	$(Q)unzip -p $< arr_0.npy >$@.part && mv $@.part $@
 
--include $(B)/generate.d $(B)/stereo.d
+-include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d

@@ -160,6 +160,21 @@ static double soft_height(double u, double v) {
     return 0.5 + 0.20 * sin(x + 0.3) + 0.17 * sin(y + 1.1) + 0.10 * sin(2 * x - y + 2.3);
 }
 
+/* ---- Pins ---- */
+
+enum { PIN_TEXELS = 256, PIN_BLOCK = 8 };
+
+/* What no step along a ray may be trusted to find: one texel of height 1 in each block of texels, somewhere
+ * in it but not in its first two columns and rows, so that between two pins there are always two texels of
+ * height 0. */
+static double pins(double u, double v) {
+    int x = (int)(u * PIN_TEXELS), y = (int)(v * PIN_TEXELS);
+    int column = x / PIN_BLOCK, row = y / PIN_BLOCK;
+    int pin_x = 2 + (int)(hash(column, row, 100) * (PIN_BLOCK - 2));
+    int pin_y = 2 + (int)(hash(column, row, 101) * (PIN_BLOCK - 2));
+    return x % PIN_BLOCK == pin_x && y % PIN_BLOCK == pin_y;
+}
+
 /* ---- Files ---- */
 
 static const double scale = 0.1, base = 1; /* displacement = scale (h - base), in texture widths */
@@ -277,5 +292,8 @@ int main(int count, char **arguments) {
     Image soft = paint_height(128, soft_height);
     save(folder, "soft-height.png", &soft, 16);
     image_destroy(&soft);
+    Image pinned = paint_height(PIN_TEXELS, pins);
+    save(folder, "pins-height.png", &pinned, 8);
+    image_destroy(&pinned);
     return 0;
 }

@@ -1,8 +1,8 @@
 /* stereo DIR: makes a relief of a photographed scene from its measured stereo disparity.
  *
  * Reads DIR/motorcycle_left.png and DIR/motorcycle_disp.npy; writes DIR/stereo-colour.png, the height map
- * DIR/stereo-height.exr, and DIR/stereo-mask.png, which is 1 where the height was measured and 0 where it
- * was not and was filled in.
+ * DIR/stereo-height.exr, both in one as the relief texture DIR/stereo-relief.exr with lengths in millimetres,
+ * and DIR/stereo-mask.png, which is 1 where the height was measured and 0 where it was not and was filled in.
  *
  * A pixel with disparity s saw a point at depth z = baseline f / (s + shift) (Scharstein et al. 2014). The
  * relief is the photo as a plane, with each texel pressed in by its depth behind the nearest point, at the
@@ -208,10 +208,19 @@ int main(int count, char **arguments) {
     double plane_mm = SHRINK * width * near / focal_pixels; /* what the picture's width spans at `near` */
     heights.scale = (far - near) / plane_mm / FLATTEN;
     heights.base = 1;
+    double tall_mm = plane_mm * height / width; /* the camera is at the origin and looks along -z */
+    heights.basis = (Basis){.origin = v3(-plane_mm / 2, -tall_mm / 2, -near),
+                            .a = v3(plane_mm, 0, 0),
+                            .b = v3(0, tall_mm, 0),
+                            .f = v3(0, 0, 1.0 / FLATTEN),
+                            .unit = "mm"};
 
     Image colour = shrink(&photo, width, height);
     char *path = text("%s/stereo-colour.png", folder);
     check(image_write(&colour, path), folder, "stereo-colour.png");
+    free(path);
+    path = text("%s/stereo-relief.exr", folder);
+    check(image_write_relief(&colour, &heights, path, 32), folder, "stereo-relief.exr");
     free(path);
     write_raw(&heights, folder, "stereo-height.exr", 32);
     write_raw(&mask, folder, "stereo-mask.png", 8);

@@ -47,7 +47,7 @@ sub refuses {
 
 # ---- generate ----
 
-my @drawn = map { "$_.png" } qw(checker zone-plate uv-grid soft-height brick-colour brick-height brick-normal
+my @drawn = map { "$_.png" } qw(checker zone-plate uv-grid soft-height pins-height brick-colour brick-height brick-normal
     brick-256-colour brick-256-height brick-256-normal);
 make_path("$tmp/first");
 is((run('build/generate', "$tmp/first"))[0], 0, 'generate runs');
