@@ -65,12 +65,12 @@ static void land_row(void *context, int y) {
         double h = *image_at(&work->judge->heights, x, y);
         Vec3 point = relief_point(source, &source->plane, u, v, h);
         Ray ray = line_of_sight(source, work->eye, point);
-        Landing landing = {.height = h};
+        Sighting sighting = {.height = h};
         Vec2 at = v2(0, 0);
-        landing.in_front = ray.direction.z < 0.0 && ray_meets(ray, &source->plane, &at);
-        landing.u = at.x, landing.v = at.y;
-        landing.visible = landing.in_front && is_visible(work->judge, ray, u, v);
-        work->judge->landings[(size_t)y * source->width + x] = landing;
+        sighting.in_front = ray.direction.z < 0.0 && ray_meets(ray, &source->plane, &at);
+        sighting.u = at.x, sighting.v = at.y;
+        sighting.visible = sighting.in_front && is_visible(work->judge, ray, u, v);
+        work->judge->sightings[(size_t)y * source->width + x] = sighting;
     }
 }
 
@@ -96,10 +96,10 @@ static void trace_row(void *context, int y) {
 }
 
 /* The texel of the destination that a landing lies in, or -1. */
-static int texel_under(const Judge *judge, const Landing *landing) {
-    if (!landing->in_front) return -1;
-    double x = floor((landing->u - judge->low.x) / (judge->high.x - judge->low.x) * judge->width);
-    double y = floor((landing->v - judge->low.y) / (judge->high.y - judge->low.y) * judge->height);
+static int texel_under(const Judge *judge, const Sighting *sighting) {
+    if (!sighting->in_front) return -1;
+    double x = floor((sighting->u - judge->low.x) / (judge->high.x - judge->low.x) * judge->width);
+    double y = floor((sighting->v - judge->low.y) / (judge->high.y - judge->low.y) * judge->height);
     if (!(x >= 0.0 && x < judge->width && y >= 0.0 && y < judge->height)) return -1;
     return (int)y * judge->width + (int)x;
 }
@@ -108,10 +108,10 @@ static void find_highest(Judge *judge) {
     int texels = judge->width * judge->height, count = judge->source->width * judge->source->height;
     for (int i = 0; i < texels; i++) judge->highest[i] = -1;
     for (int i = 0; i < count; i++) {
-        int under = texel_under(judge, &judge->landings[i]);
+        int under = texel_under(judge, &judge->sightings[i]);
         if (under < 0) continue;
         int *highest = &judge->highest[under];
-        if (*highest < 0 || judge->landings[i].height > judge->landings[*highest].height) *highest = i;
+        if (*highest < 0 || judge->sightings[i].height > judge->sightings[*highest].height) *highest = i;
     }
 }
 
@@ -124,7 +124,7 @@ Judge judge_create(const Source *source, Eye eye, const Destination *shape) {
                    .high = shape->high,
                    .heights = image_create(source->width, source->height, 1),
                    .colours = image_create(source->width, source->height, 3),
-                   .landings = allocate(count, sizeof(Landing)),
+                   .sightings = allocate(count, sizeof(Sighting)),
                    .exact = allocate(texels, sizeof(Sample)),
                    .highest = allocate(texels, sizeof(int))};
     for (size_t i = 0; i < count; i++) {
@@ -144,7 +144,7 @@ Judge judge_create(const Source *source, Eye eye, const Destination *shape) {
 void judge_destroy(Judge *judge) {
     image_destroy(&judge->heights);
     image_destroy(&judge->colours);
-    free(judge->landings);
+    free(judge->sightings);
     free(judge->exact);
     free(judge->highest);
     *judge = (Judge){0};
@@ -191,7 +191,7 @@ double judge_order_violation_percent(const Judge *judge, const Destination *dest
         double allowed = own_rise(judge, highest % width, highest / width) +
                          own_rise(judge, nearest_to(width, shown[0]), nearest_to(height, shown[1]));
         seen++;
-        violations += judge->landings[highest].height - shown[2] > allowed + 1e-6; /* of floats' rounding */
+        violations += judge->sightings[highest].height - shown[2] > allowed + 1e-6; /* of floats' rounding */
     }
     return percent(violations, seen);
 }
@@ -223,10 +223,10 @@ double judge_lost_texel_percent(const Judge *judge, Eye eye, const Canvas *canva
     double visible = 0.0, lost = 0.0;
     for (int y = 0; y < source->height; y++)
         for (int x = 0; x < source->width; x++) {
-            const Landing *landing = &judge->landings[(size_t)y * source->width + x];
-            if (!landing->visible) continue;
+            const Sighting *sighting = &judge->sightings[(size_t)y * source->width + x];
+            if (!sighting->visible) continue;
             Vec3 point = relief_point(source, &source->plane, (x + 0.5) / source->width,
-                                      (y + 0.5) / source->height, landing->height);
+                                      (y + 0.5) / source->height, sighting->height);
             Ray ray = line_of_sight(source, eye, point);
             int kept = 0;
             for (int i = 0; i < count; i++) kept += is_kept(&canvases[i], ray);
@@ -251,11 +251,11 @@ double judge_first_pass_loss_percent(const Judge *judge, Eye eye, const float *k
     double seen = 0.0, lost = 0.0;
     for (int i = 0; i < judge->width * judge->height; i++) {
         int texel = judge->highest[i];
-        if (texel < 0 || !judge->landings[texel].visible) continue;
+        if (texel < 0 || !judge->sightings[texel].visible) continue;
         int x = texel % source->width, y = texel / source->width;
         double u = kept[(size_t)y * judge->width + i % judge->width];
         double own =
-            (judge->landings[texel].v - judge->low.y) / (judge->high.y - judge->low.y) * judge->height;
+            (judge->sightings[texel].v - judge->low.y) / (judge->high.y - judge->low.y) * judge->height;
         bool other =
             fabs(u * source->width - (x + 0.5)) > 1.0 && !(fabs(seen_upward(judge, eye, u, y) - own) <= 1.0);
         seen++;

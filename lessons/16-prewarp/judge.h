@@ -15,7 +15,7 @@ typedef struct {
     double height; /* h: of two on one line of sight the higher is the nearer */
     bool in_front; /* of the eye; if not, it has no u and v */
     bool visible;  /* nothing of the relief (bilinear, its sides left open) is nearer on its line of sight */
-} Landing;
+} Sighting;
 
 /* All that one eye's figures share, for destinations of one size and place. */
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
     int width, height;    /* of the destinations */
     Vec2 low, high;
     Image heights, colours; /* the source's, linear */
-    Landing *landings;      /* one a texel of the source, row 0 first */
+    Sighting *sightings;    /* one a texel of the source, row 0 first */
     Sample *exact;          /* one a texel of the destination: what the ray through its centre meets of the
                                relief behind the polygon's window; no hit for those outside the window */
     int *highest; /* one a texel of the destination: the highest of the source's texels whose landing
