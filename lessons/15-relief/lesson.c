@@ -52,6 +52,11 @@ static const Lesson lesson = {
     .scenes = {
         {"brick", "a brick wall, its bricks' faces in the polygon", .techniques = {MARCHES}, ANGLES,
          .colour = "brick-256-colour.png", .height = "brick-256-height.png", .load = relief_load, SCENE(18)},
+        {"terrain", "a real mountain, Levi in Finland, one and a half times as steep as it is",
+         .techniques = {MARCHES}, ANGLES, .colour = "terrain-relief.png", .height = "terrain-relief.png",
+         .load = relief_load, SCENE(18)},
+        {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground", .techniques = {MARCHES},
+         ANGLES, .colour = "uv-grid.png", .height = "pins-height.png", .load = relief_load, SCENE(18)},
         {"shadow", "the wall in the light of a lamp far to the upper left, and in its own shadow",
          .techniques = {{TECHNIQUE("parallax", "lit-parallax", "one height, lit, no shadow")},
                         {TECHNIQUE("relief", "lit-relief", "lit, no shadow"), STEPS(32)},

@@ -28,14 +28,4 @@ void relief_measure(const Shots *shots, Table *table);
 /* Whether no part of the relief stands between the point of its surface at (u, v) and the light. */
 bool relief_is_lit(const Relief *relief, Vec3 light, double u, double v);
 
-/* How far searches were from the exact hits, in texels of the height map: a wrong one is more than one texel
- * off, or a hit where there is none, or none where there is one. */
-typedef struct {
-    double wrong_percent; /* of the pixels that either hits */
-    double p99;           /* the error that 99 % of the hits of both stay below */
-} HitErrors;
-
-/* lookup has four channels (see Picture); exact the truth along the centre of each of its pixels. */
-HitErrors relief_errors(const Image *lookup, const Sample *exact, Vec2 texels);
-
 #endif
