@@ -1,0 +1,35 @@
+// The maximum mip pyramid (Tevs, Ihrke, Seidel 2008): whole blocks of cells that the ray passes above are left behind
+// in one step.
+#include "cells.glsl"
+
+// pyramid_map: in level k, texel (i, j), the largest height in the block of 2^k x 2^k cells from (2^k i, 2^k j) on, as
+// far as the map goes. corner_map: the four heights of each cell.
+//
+// The inner loop leaves a block, and tries one twice as large, or looks closer; it ends at a cell whose highest corner
+// the ray falls below. There the patch decides.
+float maximum(sampler2D pyramid_map, sampler2D corner_map, HeightRay line) {
+    CellRay ray = cell_ray(corner_map, line);
+    float t = 0.0, side = 8.0, top, leave;
+    int level = 3, coarsest = int(log2(max(ray.size.x, ray.size.y)));
+    vec2 cell, texel;
+    for (int steps = 0; steps < 4096; steps++) {
+        for (; steps < 4096; steps++) {
+            cell = cell_at(ray, t);
+            vec2 turns = cell_turns(ray, cell);
+            texel = cell - turns;
+            vec2 block = side * floor(texel / side);
+            top = 1.0 - texelFetch(pyramid_map, ivec2(block / side), level).x;
+            leave = leaving_time(ray, turns + block, min(vec2(side), ray.size - block));
+            if (top < leave && level == 0) break;
+            bool over = top >= leave;
+            t = over ? leave : max(t, top);
+            bool coarser = over && level < coarsest;
+            level += coarser ? 1 : over ? 0 : -1;
+            side *= coarser ? 2.0 : over ? 1.0 : 0.5;
+        }
+        float hit = patch_hit(ray, cell, texelFetch(corner_map, ivec2(texel), 0), max(t, top), leave);
+        if (hit >= 0.0) return hit;
+        t = leave;
+    }
+    return t;
+}
