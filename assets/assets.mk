@@ -6,11 +6,11 @@ GENERATED := $(addprefix $(B)/assets/,checker.png zone-plate.png uv-grid.png sof
 fetched_rows := NR > 1 && $$NF !~ /^later/ { print $$1 }
 FETCHED := $(addprefix $(B)/assets/,$(shell awk -F, '$(fetched_rows)' assets/manifest.csv))
 STEREO := $(addprefix $(B)/assets/,stereo-colour.png stereo-height.exr stereo-mask.png stereo-relief.exr)
-ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(B)/assets/terrain-relief.png
+ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(addprefix $(B)/assets/,terrain-relief.png brick-relief.png)
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo $(B)/terrain: $(B)/%: assets/%.c | $(LIBRARIES)
+$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
 		$(LDFLAGS) -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
@@ -34,8 +34,22 @@ $(B)/assets/terrain-relief.png: $(B)/terrain $(B)/assets/topography.png
 	$(call say,TERRAIN,$@)
 	$(Q)$(B)/terrain $(B)/assets >$(B)/terrain.log
 
+# A brick and its joint are 240 mm by 90 mm.
+$(B)/assets/brick-relief.png: $(B)/relief $(B)/assets/brick-256-colour.png $(B)/assets/brick-256-height.png
+	$(call say,RELIEF,$@)
+	$(Q)$(B)/relief combine $(filter %.png,$^) $@ --width 720 --unit mm
+
+# COLOUR, HEIGHT and OUT are files; SCALE, BASE, WIDTH and UNIT may be left out (build/relief --help).
+relief: $(B)/relief ## (COLOUR=a.png HEIGHT=b.png OUT=c.png) make a relief texture of two images
+	$(if $(and $(COLOUR),$(HEIGHT),$(OUT)),,$(error usage: make relief COLOUR=a.png HEIGHT=b.png OUT=c.png \
+		[SCALE=0.1 BASE=1 WIDTH=2.5 UNIT=m]))
+	$(Q)$(B)/relief combine $(if $(SCALE),--scale '$(SCALE)') $(if $(BASE),--base '$(BASE)') \
+		$(if $(WIDTH),--width '$(WIDTH)') $(if $(UNIT),--unit '$(UNIT)') -- '$(COLOUR)' '$(HEIGHT)' '$(OUT)'
+
+.PHONY: relief
+
 # A .npz is a zip archive; unzip checks what it unpacks.
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz
 	$(Q)unzip -p $< arr_0.npy >$@.part && mv $@.part $@
 
--include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d
+-include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d

@@ -62,14 +62,29 @@ std::mutex Silence::one;
 
 using File = std::unique_ptr<FILE, int (*)(FILE *)>;
 
-/* A PNG is a row of chunks: length, name, data, checksum. The last is named IEND. */
-static bool png_has_end(FILE *file) {
+/* What a file says in text: names and values. */
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+/* Adds a PNG's text chunk, name, zero, value, to texts if it is one of ours. The file is left anywhere. */
+static void png_take_text(FILE *file, long length, Texts *texts) {
+    static const char ours[] = "texel:";
+    std::string text(length < 4096 ? length : 0, 0);
+    if (text.empty() || fread(text.data(), text.size(), 1, file) != 1) return;
+    size_t zero = text.find('\0');
+    if (zero == std::string::npos || text.compare(0, strlen(ours), ours) != 0) return;
+    texts->emplace_back(text.substr(0, zero), text.substr(zero + 1));
+}
+
+/* A PNG is a row of chunks: length, name, data, checksum. The last is named IEND. On the way there our texts
+ * are taken along: OpenImageIO sees those before the pixels, but many a program writes them behind. */
+static bool png_has_end(FILE *file, Texts *texts) {
     unsigned char head[8], checksum[4];
     if (fseek(file, 8, SEEK_SET)) return false;
     while (fread(head, sizeof head, 1, file) == 1) {
         if (memcmp(head + 4, "IEND", 4) == 0) return fread(checksum, sizeof checksum, 1, file) == 1;
-        long length = (long)head[0] << 24 | head[1] << 16 | head[2] << 8 | head[3];
-        if (fseek(file, length + 4, SEEK_CUR)) return false;
+        long length = (long)head[0] << 24 | head[1] << 16 | head[2] << 8 | head[3], data = ftell(file);
+        if (memcmp(head + 4, "tEXt", 4) == 0) png_take_text(file, length, texts);
+        if (fseek(file, data + length + 4, SEEK_SET)) return false;
     }
     return false;
 }
@@ -92,12 +107,14 @@ static bool jpeg_has_end(FILE *file) {
 }
 
 /* What can be said of a file before its pixels are decoded: NULL, or the reason why it is refused. Decoders
- * make up what a truncated PNG or JPEG lacks, so the end is looked for here. */
-static const char *check_whole(FILE *file) {
+ * make up what a truncated PNG or JPEG lacks, so the end is looked for here. texts: as png_has_end finds
+ * them.
+ */
+static const char *check_whole(FILE *file, Texts *texts) {
     unsigned char start[8] = {};
     if (fread(start, 1, sizeof start, file) == 0) return "the file is empty";
     bool png = memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0, jpeg = memcmp(start, "\xff\xd8\xff", 3) == 0;
-    if (png && !png_has_end(file)) return "the file is truncated: a PNG ends with an IEND chunk";
+    if (png && !png_has_end(file, texts)) return "the file is truncated: a PNG ends with an IEND chunk";
     if (jpeg && !jpeg_has_end(file)) return "the file is truncated: a JPEG ends with an end marker";
     return nullptr;
 }
@@ -246,7 +263,8 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     if (!S_ISREG(about.st_mode)) return "not a regular file";
     File file(fopen(path, "rb"), fclose);
     if (!file) return strerror(errno);
-    const char *refused = check_whole(file.get());
+    Texts texts;
+    const char *refused = check_whole(file.get(), &texts);
     if (refused) return refused;
 
     OIIO::ImageSpec wish;
@@ -256,7 +274,8 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
         OIIO::geterror(); /* fetched, or OpenImageIO prints it at the end of the program */
         return "not an image, or a broken one";
     }
-    const OIIO::ImageSpec &spec = input->spec();
+    OIIO::ImageSpec spec = input->spec();
+    for (const auto &[name, text] : texts) spec[name] = text;
     int channels = kind == IMAGE_RAW ? spec.nchannels : kind == IMAGE_HEIGHT ? 1 : spec.nchannels < 3 ? 1 : 3;
     refused = check_size(spec, channels);
     bool relief = false;
@@ -284,6 +303,7 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     result.base = said.base;
     result.basis = said.basis;
     result.hollow = said.hollow;
+    result.relief = relief;
     for (int y = 0; y < spec.height; y++) { /* the file's first row is the top one, ours the bottom one */
         const float *from = &stored[(size_t)(spec.height - 1 - y) * spec.width * channels];
         float *to = image_at(&result, 0, y);

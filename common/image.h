@@ -28,6 +28,7 @@ typedef struct {
     double scale, base;          /* of a height map (see below); NAN when the file does not say */
     Basis basis;                 /* of a relief texture's height; a.x is NAN when the file does not say */
     bool hollow;                 /* of a relief texture's height: a height of 0 is no surface at all */
+    bool relief;                 /* the file is a relief texture, and was not read raw */
     float *pixels;               /* height * width * channels floats; image_destroy frees them */
 } Image;
 

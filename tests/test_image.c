@@ -675,6 +675,7 @@ static void assert_relief(const char *path, int bits, const Image *colour, const
     assert_true(h.scale == height->scale && h.base == height->base && h.hollow == height->hollow);
     assert_basis(&h.basis, &height->basis);
     assert_true(isnan(c.scale) && isnan(c.base) && isnan(c.basis.a.x) && !c.hollow);
+    assert_true(c.relief && h.relief);
     image_destroy(&c), image_destroy(&h);
 }
 
@@ -691,6 +692,7 @@ static void reliefs_survive(void **state) {
 
     Image raw = image_load(exr, IMAGE_RAW); /* and the four channels as they are stored */
     assert_image(&raw, 13, 7, 4, 32);
+    assert_false(raw.relief);
     for (int i = 0; i < 13 * 7; i++) {
         assert_memory_equal(raw.pixels + 4 * i, colour.pixels + 3 * i, 3 * sizeof(float));
         assert_true(raw.pixels[4 * i + 3] == height.pixels[i]);
@@ -806,8 +808,31 @@ static void reads_reliefs_made_by_hand(void **state) {
     path = in_folder("plain.png");
     png_make(path, 1, 1, 4, (unsigned char[]){200, 100, 50, 51}, "tEXt", basis_only, 19);
     height = image_load(path, IMAGE_HEIGHT);
-    assert_true(height.pixels[0] == (float)(200 / 255.0) && isnan(height.basis.a.x));
+    assert_true(height.pixels[0] == (float)(200 / 255.0) && isnan(height.basis.a.x) && !height.relief);
     image_destroy(&height);
+}
+
+/* Programs that edit pictures often write what they do not know behind the pixels. */
+static void reads_texts_behind_the_pixels(void **state) {
+    (void)state;
+    static Bytes file, ours;
+    Image colour = pattern(13, 7, 3), height = relief_height(13, 7);
+    const char *path = in_folder("behind.png");
+    assert_null(image_write_relief(&colour, &height, path, 16));
+    file_read(path, &file);
+    memcpy(scratch.bytes, file.bytes, scratch.size = 8);
+    ours.size = 0;
+    for (size_t at = 8, size; at < file.size; at += size) { /* a chunk after the other */
+        const unsigned char *head = file.bytes + at;
+        size = 12u + ((size_t)head[0] << 24 | head[1] << 16 | head[2] << 8 | head[3]);
+        if (!memcmp(head + 4, "IEND", 4)) put(&scratch, ours.bytes, ours.size);
+        put(memcmp(head + 4, "tEXt", 4) ? &scratch : &ours, head, size);
+    }
+    assert_true(ours.size > 100);
+    assert_int_equal(scratch.size, file.size);
+    file_write(path, scratch.bytes, scratch.size);
+    assert_relief(path, 16, &colour, &height, 0.501 / 65535, 0.501 / 65535);
+    image_destroy(&colour), image_destroy(&height);
 }
 
 static void refuses_bad_reliefs(void **state) {
@@ -959,6 +984,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_relief_may_say_little),
         cmocka_unit_test(numbers_are_the_same_in_every_locale),
         cmocka_unit_test(reads_reliefs_made_by_hand),
+        cmocka_unit_test(reads_texts_behind_the_pixels),
         cmocka_unit_test(refuses_bad_reliefs),
         cmocka_unit_test(refuses_to_write_bad_reliefs),
         cmocka_unit_test(samples_between_texels),
