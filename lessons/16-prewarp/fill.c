@@ -9,7 +9,8 @@
  * lies between entries i - 1 and i, and its corners are numbered 00 10 11 01, the column first. */
 typedef struct {
     Destination *destination;
-    float *nearest; /* for the depth buffer: the least w so far of each destination texel; or NULL */
+    float *nearest; /* for the depth buffer: the least depth so far of each destination texel; or NULL */
+    float depth_l;  /* depth = depth_l l: of points on one ray, the nearest to the eye has the least */
     LandedRow below, above;
     int *place;   /* of each cell: the one destination texel that it covers, or NOTHING, or MANY */
     float *s, *t; /* where in the cell that one lies */
@@ -52,19 +53,19 @@ static inline float mix(float a, float b, float t) { return a + (b - a) * t; }
 /* Paints the point s, t of cell i over the destination texel `at`. */
 static inline void put(const Painter *painter, size_t at, int i, float s, float t) {
     const LandedRow *below = &painter->below, *above = &painter->above;
+    float level = mix(mix(below->levels[i - 1], below->levels[i], s),
+                      mix(above->levels[i - 1], above->levels[i], s), t);
     if (painter->nearest) {
-        float w = mix(mix(below->w[i - 1], below->w[i], s), mix(above->w[i - 1], above->w[i], s), t);
-        if (!(w < painter->nearest[at])) return;
-        painter->nearest[at] = w;
+        float depth = painter->depth_l * level;
+        if (!(depth < painter->nearest[at])) return;
+        painter->nearest[at] = depth;
     }
     painter->destination->texels[at] = bilinear(below->texels + i - 1, above->texels + i - 1, s, t);
     if (!painter->destination->lookup) return;
     float *lookup = painter->destination->lookup + 3 * at;
     lookup[0] = mix(below->u[i - 1], below->u[i], s);
     lookup[1] = mix(below->v, above->v, t);
-    lookup[2] = mix(mix(below->levels[i - 1], below->levels[i], s),
-                    mix(above->levels[i - 1], above->levels[i], s), t) /
-                65535;
+    lookup[2] = level / 65535;
 }
 
 /* ---- Cells that cover many texels: line by line ---- */
@@ -208,6 +209,7 @@ void fill_cells(const Source *source, const PrewarpFactors *factors, Visibility 
     Landing landing = landing_create(source, factors, destination);
     size_t cells = (size_t)source->width + 1;
     Painter painter = {.destination = destination,
+                       .depth_l = factors->behind ? 1 : -1,
                        .below = landed_row_create(source->width),
                        .above = landed_row_create(source->width),
                        .place = allocate(cells, sizeof(int)),

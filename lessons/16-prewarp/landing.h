@@ -13,7 +13,7 @@ typedef struct {
     float *u;         /* in the source */
     float *x, *y;     /* in destination texels: the lower left one's centre is 0, 0. LANDING_NOWHERE, both,
                          for a texel behind the eye or more than 2^20 texels away */
-    float *w;         /* 1 + k3 d: the distance from the eye, up to a factor */
+    float *w;         /* 1 + k3 d */
     uint16_t *levels; /* the heights */
     Texel *texels;
     float v;      /* of the whole row */
