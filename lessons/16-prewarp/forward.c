@@ -1,7 +1,8 @@
 #include "forward.h"
 
-#include "fail.h"
+#include "depth_buffer.h"
 #include "fill.h"
+#include "splat.h"
 
 #include <string.h>
 
@@ -69,8 +70,10 @@ void warp_forward(const Source *source, const PrewarpFactors *factors, Visibilit
     if (!factors->possible) return;
     if (filling == FILLING_LINEAR)
         fill_cells(source, factors, visibility, destination, counts);
-    else if (visibility == VISIBILITY_OCCLUSION_ORDER && filling == FILLING_NONE)
-        forward_texels(source, factors, visibility, destination, put_last, destination, counts);
+    else if (filling == FILLING_SPLAT)
+        splat_texels(source, factors, visibility, destination, counts);
+    else if (visibility == VISIBILITY_DEPTH_BUFFER)
+        depth_buffer_texels(source, factors, destination, counts);
     else
-        fail("this way to warp is not there yet");
+        forward_texels(source, factors, visibility, destination, put_last, destination, counts);
 }
