@@ -17,6 +17,8 @@ TEXEL_CFLAGS := -std=c17 $(TEXEL_FLAGS)
 TEXEL_CXXFLAGS := -std=c++20 $(TEXEL_FLAGS)
 TEXEL_LIBS = $(shell pkg-config --libs glfw3 osmesa) -lm -pthread -ldl
 LINK_TEXEL = -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
+LINK_RAYS = -Wl,--as-needed -ltexel-rays
+EMBREE_LIBS := -lembree3
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -31,7 +33,8 @@ help: ## list these commands
 # ---- The library ----
 
 COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c))
-LIBRARIES := $(B)/libtexel.so $(B)/libtexel-files.so
+RAYS_OBJECTS := $(B)/obj/common/mesh_rays.c.o
+LIBRARIES := $(B)/libtexel.so $(B)/libtexel-files.so $(B)/libtexel-rays.so
 
 $(B)/obj/%.c.o: %.c
 	$(call say,CC,$<)
@@ -44,14 +47,19 @@ $(B)/obj/%.cpp.o: %.cpp
 	$(Q)$(CXX) $(TEXEL_CXXFLAGS) $(CXXFLAGS) -c $< -o $@
 
 # A shared library, so that linking a lesson takes no time; image files are in one of their own, loaded when the
-# first is read (common/image_files.h says why). And an archive for tests, which take from it only what they use.
-$(B)/libtexel.so: $(COMMON_OBJECTS)
+# first is read (common/image_files.h says why). Embree costs a start 1 ms of 25, so only who asks for rays against
+# meshes is linked with it. And an archive for tests, which take from it only what they use.
+$(B)/libtexel.so: $(filter-out $(RAYS_OBJECTS),$(COMMON_OBJECTS))
 	$(call say,LINK,$@)
 	$(Q)$(CC) -shared $(CFLAGS) $(LDFLAGS) $^ $(TEXEL_LIBS) -Wl,-rpath,'$$ORIGIN' -o $@
 
 $(B)/libtexel-files.so: $(B)/obj/common/image.cpp.o | $(B)/libtexel.so
 	$(call say,LINK,$@)
 	$(Q)$(CXX) -shared $(CXXFLAGS) $(LDFLAGS) $< $(shell pkg-config --libs OpenImageIO) $(LINK_TEXEL) -o $@
+
+$(B)/libtexel-rays.so: $(RAYS_OBJECTS) | $(B)/libtexel.so
+	$(call say,LINK,$@)
+	$(Q)$(CC) -shared $(CFLAGS) $(LDFLAGS) $^ $(EMBREE_LIBS) $(LINK_TEXEL) -o $@
 
 $(B)/libtexel.a: $(COMMON_OBJECTS)
 	$(call say,AR,$@)
@@ -64,7 +72,7 @@ lesson_sources = $(filter-out $(wildcard lessons/$(1)/test_*.c),$(wildcard lesso
 define LESSON_RULES
 $(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(LIBRARIES)
 	$$(call say,LINK,$$@)
-	$$(Q)$$(CC) $$(CFLAGS) $$(LDFLAGS) $$^ $$(LINK_TEXEL) -o $$@
+	$$(Q)$$(CC) $$(CFLAGS) $$(LDFLAGS) $$^ $$(LINK_RAYS) $$(LINK_TEXEL) -o $$@
 endef
 $(foreach lesson,$(LESSONS),$(eval $(call LESSON_RULES,$(lesson))))
 

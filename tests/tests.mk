@@ -7,7 +7,7 @@ UNIT_TESTS := $(patsubst tests/%.c,$(TESTS)/%,$(wildcard tests/test_*.c))
 LESSON_TESTS := $(patsubst lessons/%.c,$(TESTS)/%,$(wildcard lessons/*/test_*.c))
 tests_of = $(filter $(TESTS)/$(1)/%,$(LESSON_TESTS)) $(filter $(TESTS)/cases-$(1),$(CASES_TESTS))
 
-link_test = $(CC) $(CFLAGS) $(LDFLAGS) -Wl,--as-needed $(filter %.o,$^) $(B)/libtexel.a -lcmocka $(TEXEL_LIBS) \
+link_test = $(CC) $(CFLAGS) $(LDFLAGS) -Wl,--as-needed $(filter %.o,$^) $(B)/libtexel.a -lcmocka $(TEXEL_LIBS) $(EMBREE_LIBS) \
 	-Wl,-rpath,'$(CURDIR)/$(B)' -o $@
 
 $(UNIT_TESTS) $(TESTS)/png_difference: $(TESTS)/%: $(B)/obj/tests/%.c.o $(B)/libtexel.a | $(LIBRARIES)
