@@ -1,158 +1,186 @@
 #include "scene.h"
 
 #include "fail.h"
+#include "forward.h"
+#include "inverse.h"
 #include "normals.h"
+#include "two_pass.h"
 
 #include <stdlib.h>
-
-static const double light_height = 0.7, turns_per_second = 0.1;
-
-/* ---- Layers: what landed, for OpenGL ---- */
-
-static uint16_t sixteen_bits(uint8_t eight) { return (uint16_t)(eight * 257); }
-
-/* Writes texels into the layer's textures. A hole becomes 0 in all channels, so that a linear filter can tell
- * how much of what it mixes is there. */
-static void layer_write(Layer *layer, int width, int height, const Texel *texels) {
-    if (!layer->colour.id || layer->colour.width != width || layer->colour.height != height) {
-        if (layer->colour.id) texture_destroy(&layer->colour), texture_destroy(&layer->normal);
-        layer->colour = texture_empty(width, height, TEXTURE_SRGBA8, TEXTURE_LINEAR);
-        layer->normal = texture_empty(width, height, TEXTURE_RGBA16, TEXTURE_LINEAR);
-    }
-    size_t count = (size_t)width * height;
-    uint8_t(*colours)[4] = allocate(count, sizeof *colours);
-    uint16_t(*normals)[4] = allocate(count, sizeof *normals);
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3 && texels[i].colour[3]; k++) {
-            colours[i][k] = texels[i].colour[k];
-            normals[i][k] = sixteen_bits(texels[i].normal[k]);
-        }
-        colours[i][3] = texels[i].colour[3];
-        normals[i][3] = sixteen_bits(texels[i].colour[3]);
-    }
-    texture_write(&layer->colour, TEXTURE_SRGBA8, colours);
-    texture_write(&layer->normal, TEXTURE_RGBA16, normals);
-    free(colours);
-    free(normals);
-}
-
-/* And where each texel came from. */
-static void layer_write_lookup(Layer *layer, Image *lookup) {
-    if (layer->lookup.id) texture_destroy(&layer->lookup);
-    layer->lookup = texture_create(lookup, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
-}
-
-static void layer_destroy(Layer *layer) {
-    if (layer->colour.id) texture_destroy(&layer->colour), texture_destroy(&layer->normal);
-    if (layer->lookup.id) texture_destroy(&layer->lookup);
-}
+#include <string.h>
 
 /* ---- Loading ---- */
 
-/* The texels as they lie: where plain's come from. */
-static void write_plain(Prewarp *prewarp) {
-    const Image *colour = &prewarp->wall.colour_image;
-    int width = colour->width, height = colour->height;
-    Texel *texels = allocate((size_t)width * height, sizeof *texels);
-    Image lookup = image_create(width, height, 3);
+Image scene_resampled(const Image *image, int width, int height) {
+    Image result = image_create(width, height, image->channels);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            Texel *texel = &texels[(size_t)y * width + x];
-            float *from = image_at(&lookup, x, y);
-            for (int k = 0; k < 3; k++) {
-                texel->colour[k] = srgb_byte(image_at(colour, x, y)[k]);
-                texel->normal[k] = (uint8_t)lround(127.5 + 127.5 * image_at(&prewarp->normals, x, y)[k]);
-            }
-            texel->colour[3] = 255;
-            from[0] = (float)((x + 0.5) / width), from[1] = (float)((y + 0.5) / height);
-            from[2] = (float)prewarp->wall.relief.base;
+            double texel[4];
+            image_sample(image, (x + 0.5) / width, (y + 0.5) / height, texel);
+            for (int c = 0; c < image->channels; c++) image_at(&result, x, y)[c] = (float)texel[c];
         }
-    layer_write(&prewarp->plain, width, height, texels);
-    layer_write_lookup(&prewarp->plain, &lookup);
-    free(texels);
-    image_destroy(&lookup);
+    return result;
 }
 
-/* A rectangle in the polygon's plane, from (u, v) = low to high. */
-static void lay_flat(float model[16], Vec2 low, Vec2 high, double aspect) {
-    const float matrix[16] = {[0] = (float)(high.x - low.x),
-                              [5] = (float)((high.y - low.y) * aspect),
-                              [10] = 1,
-                              [12] = (float)((low.x + high.x) / 2 - 0.5),
-                              [13] = (float)(((low.y + high.y) / 2 - 0.5) * aspect),
-                              [15] = 1};
-    for (int i = 0; i < 16; i++) model[i] = matrix[i];
+static int larger(int a, int b) { return a > b ? a : b; }
+
+/* A source of as many texels as the larger of the wall's images has, and the normals of its heights. */
+static void make_source(Prewarp *prewarp) {
+    const Wall *wall = &prewarp->wall;
+    const Image *colour = &wall->colour_image, *height = &wall->height_image;
+    int columns = larger(colour->width, height->width), rows = larger(colour->height, height->height);
+    Image colours = scene_resampled(colour, columns, rows), heights = scene_resampled(height, columns, rows);
+    prewarp->normals = height_normals(&heights, wall->relief.scale, wall->relief.aspect);
+    prewarp->source =
+        source_create(&colours, &heights, &prewarp->normals, wall->relief.scale, wall->relief.base);
+    image_destroy(&colours);
+    image_destroy(&heights);
+    double aspect = wall->relief.aspect; /* of the colour, whatever the height's */
+    prewarp->source.aspect = aspect;
+    prewarp->source.plane = (Plane){v3(-0.5, -0.5 * aspect, 0), v3(1, 0, 0), v3(0, aspect, 0), v3(0, 0, 1)};
 }
+
+/* The texels as they lie. */
+static void write_plain(Prewarp *prewarp) {
+    const Source *source = &prewarp->source;
+    int width = source->width, height = source->height;
+    Destination same = destination_create(width, height, v2(0, 0), v2(1, 1), true);
+    memcpy(same.texels, source->texels, (size_t)width * height * sizeof *same.texels);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            float *from = same.lookup + 3 * ((size_t)y * width + x);
+            from[0] = (float)((x + 0.5) / width), from[1] = (float)((y + 0.5) / height);
+            from[2] = (float)source->base; /* it lies in the polygon */
+        }
+    layer_write(&prewarp->plain, &same);
+    layer_lay(&prewarp->plain, &source->plane, v2(0, 0), v2(1, 1));
+    destination_destroy(&same);
+}
+
+static const double light_start = 120; /* degrees about the normal, from +u toward +v */
 
 static Prewarp *load(const Options *options) {
     Prewarp *prewarp = allocate(1, sizeof *prewarp);
     wall_load(&prewarp->wall, options);
-    Relief *relief = &prewarp->wall.relief;
-    relief->extent = RELIEF_CUT;
-    prewarp->normals = height_normals(&prewarp->wall.height_image, relief->scale, relief->aspect);
-    prewarp->light_angle = radians(120);
+    prewarp->wall.relief.extent = RELIEF_CUT;
+    prewarp->light_angle = radians(light_start);
     prewarp->ambient = 0.3;
     Mesh square = mesh_plane(1, 1, 1, 1);
     prewarp->square = shape_create(&square);
     mesh_destroy(&square);
-    write_plain(prewarp);
-    lay_flat(prewarp->plain.model, v2(0, 0), v2(1, 1), relief->aspect);
     return prewarp;
 }
 
-void *scene_load(const Options *options) { return load(options); }
+static Prewarp *finish(Prewarp *prewarp) {
+    make_source(prewarp);
+    write_plain(prewarp);
+    return prewarp;
+}
+
+void *scene_load(const Options *options) { return finish(load(options)); }
 
 void *scene_load_bottom(const Options *options) {
     Prewarp *prewarp = load(options);
     prewarp->wall.relief.base = 0.0;
-    return prewarp;
+    return finish(prewarp);
+}
+
+void *scene_load_overflow(const Options *options) {
+    Prewarp *prewarp = load(options);
+    prewarp->wall.relief.extent = RELIEF_SLAB;
+    return finish(prewarp);
 }
 
 void scene_unload(void *data) {
     Prewarp *prewarp = data;
     layer_destroy(&prewarp->plain);
     for (int i = 0; i < LAYERS_MAX; i++) layer_destroy(&prewarp->layers[i]);
+    for (int i = 0; i < 2; i++) destination_destroy(&prewarp->destinations[i]);
+    source_destroy(&prewarp->source);
     image_destroy(&prewarp->normals);
     shape_destroy(&prewarp->square);
     wall_unload(&prewarp->wall);
+    free(prewarp->figures);
     free(prewarp);
+}
+
+/* ---- Warping ---- */
+
+Eye scene_eye(const Camera *camera) {
+    if (camera->fov_y_degrees > 0.0) return (Eye){camera->eye, 1};
+    return (Eye){vec3_normalize(vec3_sub(camera->eye, camera->target)), 0};
+}
+
+void scene_warp(const Prewarp *prewarp, Way way, Eye eye, Destination *destination) {
+    static const struct {
+        Visibility visibility;
+        Filling filling;
+    } forward[] = {
+        [DEPTH_NONE] = {VISIBILITY_DEPTH_BUFFER, FILLING_NONE},
+        [DEPTH_LINEAR] = {VISIBILITY_DEPTH_BUFFER, FILLING_LINEAR},
+        [DEPTH_SPLAT] = {VISIBILITY_DEPTH_BUFFER, FILLING_SPLAT},
+        [ORDER_NONE] = {VISIBILITY_OCCLUSION_ORDER, FILLING_NONE},
+        [ORDER_LINEAR] = {VISIBILITY_OCCLUSION_ORDER, FILLING_LINEAR},
+        [ORDER_SPLAT] = {VISIBILITY_OCCLUSION_ORDER, FILLING_SPLAT},
+    };
+    const Source *source = &prewarp->source;
+    PrewarpFactors factors = prewarp_factors(&source->plane, eye);
+    if (way == TWO_PASS)
+        warp_two_pass(source, &factors, destination, NULL);
+    else if (way == INVERSE)
+        warp_inverse(source, &factors, destination);
+    else
+        warp_forward(source, &factors, forward[way].visibility, forward[way].filling, destination, NULL);
+}
+
+/* The one over the polygon, of the source's size. */
+static Destination *polygon_destination(Prewarp *prewarp, bool lookup) {
+    Destination *destination = &prewarp->destinations[lookup];
+    if (!destination->texels)
+        *destination =
+            destination_create(prewarp->source.width, prewarp->source.height, v2(0, 0), v2(1, 1), lookup);
+    return destination;
+}
+
+void scene_prepare(const Frame *frame) {
+    Prewarp *prewarp = frame->data;
+    const Source *source = &prewarp->source;
+    Eye eye = scene_eye(&frame->camera);
+    PrewarpFactors factors = prewarp_factors(&source->plane, eye);
+    prewarp->layer_count = factors.possible && !factors.behind;
+    if (!prewarp->layer_count) return;
+    Destination *destination = polygon_destination(prewarp, frame->looking);
+    scene_warp(prewarp, frame->technique->variant, eye, destination);
+    layer_write(&prewarp->layers[0], destination);
+    layer_lay(&prewarp->layers[0], &source->plane, destination->low, destination->high);
 }
 
 /* ---- Drawing ---- */
 
 Vec3 scene_light(const Prewarp *prewarp) {
-    return vec3_normalize(v3(cos(prewarp->light_angle), sin(prewarp->light_angle), light_height));
+    return vec3_normalize(v3(cos(prewarp->light_angle), sin(prewarp->light_angle), 0.7));
 }
 
 void scene_move(void *data, double seconds) {
-    ((Prewarp *)data)->light_angle = radians(120) + 2 * PI * turns_per_second * seconds;
-}
-
-static void draw_layer(const Frame *frame, const Layer *layer) {
-    Program *program = frame->program;
-    program->units = 0;
-    program_texture(program, "colour_map", &layer->colour);
-    program_texture(program, "normal_map", &layer->normal);
-    if (frame->looking) program_texture(program, "lookup_map", &layer->lookup);
-    program_matrix(program, "model", layer->model, 4);
-    shape_draw(&((Prewarp *)frame->data)->square);
+    ((Prewarp *)data)->light_angle = radians(light_start + 36 * seconds);
 }
 
 void scene_draw(const Frame *frame) {
     const Prewarp *prewarp = frame->data;
-    const Program *program = frame->program;
-    const Relief *relief = &prewarp->wall.relief;
+    Program *program = frame->program;
+    const Source *source = &prewarp->source;
     Vec3 light = scene_light(prewarp);
-    Vec2 texels = wall_texels(prewarp);
     program_vector(program, "light", light.x, light.y, light.z, prewarp->ambient);
-    program_vector(program, "near", 4 / texels.x, 4 / texels.y, 0, 0);
-    program_number(program, "scale", relief->scale);
-    program_number(program, "base", relief->base);
-    program_number(program, "aspect", relief->aspect);
+    program_vector(program, "near", 8.0 / source->width, 8.0 / source->height, 0, 0);
+    program_number(program, "scale", source->scale);
+    program_number(program, "base", source->base);
+    program_number(program, "aspect", source->aspect);
     program_integer(program, "looking", frame->looking);
-    if (!frame->technique->prepare) draw_layer(frame, &prewarp->plain);
-    for (int i = 0; frame->technique->prepare && i < prewarp->layer_count; i++)
-        draw_layer(frame, &prewarp->layers[i]);
+    bool plain = frame->technique->variant == PLAIN;
+    for (int i = 0; i < (plain ? 1 : prewarp->layer_count); i++) {
+        layer_bind(plain ? &prewarp->plain : &prewarp->layers[i], program);
+        shape_draw(&prewarp->square);
+    }
 }
 
 /* ---- The truth ---- */
@@ -165,4 +193,9 @@ Sample scene_truth(const void *data, Ray ray) {
     double lit = fmax(vec3_dot(normal, scene_light(prewarp)), 0.0);
     sample.colour = vec3_scale(sample.colour, prewarp->ambient + (1.0 - prewarp->ambient) * lit);
     return sample;
+}
+
+Vec2 scene_texels(const void *data) {
+    const Prewarp *prewarp = data;
+    return v2(prewarp->source.width, prewarp->source.height);
 }

@@ -3,37 +3,64 @@
 #ifndef LESSON_SCENE_H
 #define LESSON_SCENE_H
 
+#include "layer.h"
 #include "wall.h"
-#include "warp.h"
 
-/* What one polygon of the picture shows: texels that landed on it, as textures. */
-typedef struct {
-    Texture colour, normal, lookup; /* lookup's id is 0 where nobody looks */
-    float model[16];                /* from a square of width 1 around the origin, z = 0, to the polygon */
-} Layer;
+/* The ways to warp: a technique's variant. */
+typedef enum {
+    PLAIN, /* not at all */
+    DEPTH_NONE,
+    DEPTH_LINEAR,
+    DEPTH_SPLAT,
+    ORDER_NONE,
+    ORDER_LINEAR,
+    ORDER_SPLAT,
+    TWO_PASS,
+    INVERSE,
+} Way;
 
 enum { LAYERS_MAX = 5 }; /* the polygon, and one at each of its edges */
 
 typedef struct {
     Wall wall;
     Image normals; /* three channels, as floats: what the truth sees */
+    Source source;
     double light_angle, ambient;
     Shape square;
+    Destination destinations[2]; /* over the polygon, without and with a lookup; made when first used */
     Layer plain, layers[LAYERS_MAX];
-    int layer_count; /* of the view that was warped last */
+    int layer_count;         /* of the view that was warped last; 0 where nothing is seen */
+    struct Figures *figures; /* what has been measured of views, for all techniques */
 } Prewarp;
 
 /* Scene callbacks, see lesson.h. The polygon is at the relief's top (base 1, or what the file says), or with
- * scene_load_bottom at its bottom. The relief ends where the polygon does; it is seen through the polygon
- * alone. */
+ * scene_load_bottom at its bottom (base 0). The relief ends where the polygon does, and is seen through the
+ * polygon alone; with scene_load_overflow it is seen wherever it is. */
 void *scene_load(const Options *options);
 void *scene_load_bottom(const Options *options);
+void *scene_load_overflow(const Options *options);
 void scene_unload(void *data);
 void scene_draw(const Frame *frame);
 void scene_move(void *data, double seconds); /* the light goes around */
 Sample scene_truth(const void *data, Ray ray);
+Vec2 scene_texels(const void *data); /* the source's size */
+void scene_measure(const Shots *shots, Table *table);
+
+/* Technique callback: warps the source for the frame's camera, and writes the layers. An eye in the polygon's
+ * plane or behind it sees nothing: the relief has one side. */
+void scene_prepare(const Frame *frame);
+
+/* The eye of a camera. */
+Eye scene_eye(const Camera *camera);
 
 /* The unit vector toward the light. */
 Vec3 scene_light(const Prewarp *prewarp);
+
+/* An image at the centres of width x height texels, bilinear: itself where it has that size. The caller
+ * destroys it. */
+Image scene_resampled(const Image *image, int width, int height);
+
+/* Warps the source onto the polygon; the destination becomes empty where nothing can be. Not for PLAIN. */
+void scene_warp(const Prewarp *prewarp, Way way, Eye eye, Destination *destination);
 
 #endif
