@@ -1,9 +1,13 @@
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "relief.h"
 
 #include "fail.h"
 #include "hits.h"
+#include "pyramid.h"
 
 #include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 static const double AMBIENT = 0.2; /* the light that shadows have too */
 
@@ -15,9 +19,27 @@ static Vec3 light_after(double seconds) {
     return vec3_normalize(v3(tangent * cos(angle), tangent * sin(angle), 1.0));
 }
 
+static double milliseconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+static void build_pyramid(Field *field) {
+    double start = milliseconds();
+    Image corners = corners_build(&field->wall.height_image);
+    Pyramid pyramid = pyramid_build(&field->wall.height_image);
+    field->pyramid_ms = milliseconds() - start;
+    field->corners = texture_create(&corners, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
+    field->pyramid = texture_create(pyramid.levels, pyramid.count, TEXTURE_FLOAT, TEXTURE_MIP_NEAREST);
+    image_destroy(&corners);
+    pyramid_destroy(&pyramid);
+}
+
 static Field *load(const Options *options) {
     Field *field = allocate(1, sizeof *field);
     wall_load(&field->wall, options);
+    build_pyramid(field);
     field->light = light_after(0.0);
     return field;
 }
@@ -39,6 +61,8 @@ void *relief_load_cut(const Options *options) {
 
 void relief_unload(void *data) {
     Field *field = data;
+    texture_destroy(&field->corners);
+    texture_destroy(&field->pyramid);
     wall_unload(&field->wall);
     free(field);
 }
@@ -48,6 +72,8 @@ void relief_unload(void *data) {
 void relief_draw(const Frame *frame) {
     const Field *field = frame->data;
     wall_bind(&field->wall, frame->program);
+    program_texture(frame->program, "corner_map", &field->corners);
+    program_texture(frame->program, "pyramid_map", &field->pyramid);
     program_vector(frame->program, "light", field->light.x, field->light.y, field->light.z, 0);
     program_number(frame->program, "ambient", AMBIENT);
     /* How much higher than the point the light's ray must be stopped: what the two searches may differ by. */

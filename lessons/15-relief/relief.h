@@ -7,6 +7,8 @@
 
 typedef struct {
     Wall wall;
+    Texture corners, pyramid; /* see pyramid.h */
+    double pyramid_ms;        /* what both took to build */
     bool lit;
     Vec3 light; /* unit, toward it, in the polygon's frame */
 } Field;
