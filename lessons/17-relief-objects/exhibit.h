@@ -1,0 +1,24 @@
+/* What the lesson shows: an object as six reliefs, as a mesh, and as rays have it. */
+#ifndef LESSON_EXHIBIT_H
+#define LESSON_EXHIBIT_H
+
+#include "lesson.h"
+#include "warp.h"
+
+/* A technique's variant: what is warped. */
+typedef enum { ALL_FACES, FRONT_FACES, NO_RIMS, POINTS, FLAT, MESH } Variant;
+
+/* Scene callbacks, see lesson.h. The colour file is the front's; the other five lie beside it. */
+void *exhibit_load_solids(const Options *options);
+void *exhibit_load_bunny(const Options *options); /* the first other file is its mesh */
+void exhibit_unload(void *data);
+void exhibit_prepare(const Frame *frame);
+void exhibit_draw(const Frame *frame);
+void exhibit_move(void *data, double seconds);
+Sample exhibit_truth(const void *data, Ray ray);
+void exhibit_measure(const Shots *shots, Table *table);
+
+/* The eye of a camera. */
+Eye exhibit_eye(const Camera *camera);
+
+#endif
