@@ -1,0 +1,154 @@
+#include "cone.h"
+
+#include "parallel.h"
+#include "pyramid.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Cells at most so far apart, across or up, are near: their slopes are bounded by the surface's own. */
+enum { NEAR = 2, SIDE_LEAST = 2 * NEAR + 2 };
+
+typedef struct {
+    Image corners;
+    Pyramid pyramid;
+    Image *cones;
+} Job;
+
+static int wrap(int i, int size) {
+    int rest = i % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+static const float *corners_at(const Job *job, int x, int y) {
+    return image_at(&job->corners, wrap(x, job->corners.width), wrap(y, job->corners.height));
+}
+
+static double lowest_corner(const float *h) { return fmin(fmin(h[0], h[1]), fmin(h[2], h[3])); }
+
+/* ---- Near cells: the surface's slope on the way ---- */
+
+/* The steepest rise with one coordinate, of two slopes, on a way that goes forward (1), backward (-1), or
+ * either way (0). */
+static double rise(double a, double b, int way) {
+    if (way > 0) return fmax(0.0, fmax(a, b));
+    if (way < 0) return fmax(0.0, fmax(-a, -b));
+    return fmax(fabs(a), fabs(b));
+}
+
+/* The steepest rise within a patch along any direction d whose signs are those of (i, j). dh/dx of a patch
+ * depends on y alone and dh/dy on x alone, so that the steepest of both come together somewhere. */
+static double patch_rise(const float *h, int i, int j) {
+    return hypot(rise(h[1] - h[0], h[3] - h[2], i), rise(h[2] - h[0], h[3] - h[1], j));
+}
+
+/* A straight way from any point of the cell (x, y) to any point of (x + i, y + j) stays in the cells between,
+ * and goes one way: it rises by no more than the steepest of them. */
+static double near_slope(const Job *job, int x, int y, int i, int j) {
+    double steepest = 0.0;
+    for (int b = 0; b <= abs(j); b++)
+        for (int a = 0; a <= abs(i); a++)
+            steepest =
+                fmax(steepest, patch_rise(corners_at(job, x + (i < 0 ? -a : a), y + (j < 0 ? -b : b)), i, j));
+    return steepest;
+}
+
+static double near_cone(const Job *job, int x, int y) {
+    double m = 0.0;
+    for (int j = -NEAR; j <= NEAR; j++)
+        for (int i = -NEAR; i <= NEAR; i++) m = fmax(m, near_slope(job, x, y, i, j));
+    return m;
+}
+
+/* ---- Far cells: the slopes between their corners ---- */
+
+/* A cell, and the slope of the cone that is known to be needed so far. */
+typedef struct {
+    int x, y;
+    const float *heights; /* of its corners */
+    double lowest, m;
+} Apex;
+
+/* How far the cell i is from the cells from..to-1, around a world of that many cells. */
+static int gap(int i, int from, int to, int size) {
+    if (i >= from && i < to) return 0;
+    int forward = wrap(from - (i + 1), size), backward = wrap(i - to, size);
+    return forward < backward ? forward : backward;
+}
+
+static int distance_around(int a, int b, int size) {
+    int d = wrap(a - b, size);
+    return d < size - d ? d : size - d;
+}
+
+/* What the slopes between corners must be stretched by to hold between all points of two cells that are d
+ * apart. The points q and p are means of their cells' corners, weighted as the heights are, so h(q) - h(p) =
+ * mean of h(q_i) - h(p_j) <= m mean of |q_i - p_j|, and |y| <= (|y|^2 + r^2) / (2 r) with r = |q - p| bounds
+ * that mean by r + variance / (2 r). The variance of four coordinates on unit intervals is at most 4 / 4. */
+static double stretch(double d) { return 1.0 + 0.5 / (d * d); }
+
+/* The steepest way from a corner of the apex's cell to one of the cell (x, y). */
+static double corner_slope(const Job *job, const Apex *apex, int x, int y) {
+    const float *heights = corners_at(job, x, y);
+    double steepest = 0.0;
+    for (int p = 0; p < 4; p++)
+        for (int q = 0; q < 4; q++) {
+            int dx = distance_around(x + q % 2, apex->x + p % 2, job->corners.width);
+            int dy = distance_around(y + q / 2, apex->y + p / 2, job->corners.height);
+            steepest = fmax(steepest, ((double)heights[q] - apex->heights[p]) / hypot(dx, dy));
+        }
+    return steepest;
+}
+
+/* Raises m to what the cells of one block of the pyramid need, looking closer only where that may be more. */
+static void raise_for_block(const Job *job, Apex *apex, int level, int i, int j) {
+    const Image *map = &job->corners, *tops = &job->pyramid.levels[level];
+    int x0 = i << level, y0 = j << level, x1 = (i + 1) << level, y1 = (j + 1) << level;
+    if (x0 >= map->width || y0 >= map->height) return;
+    int dx = gap(apex->x, x0, x1 < map->width ? x1 : map->width, map->width);
+    int dy = gap(apex->y, y0, y1 < map->height ? y1 : map->height, map->height);
+    bool far = dx >= NEAR || dy >= NEAR;
+    double d = hypot(dx, dy), top = *image_at(tops, i, j);
+    if (far && (top - apex->lowest) / d * stretch(d) <= apex->m) return;
+    if (level > 0) {
+        for (int k = 0; k < 4; k++) {
+            int child_x = 2 * i + k % 2, child_y = 2 * j + k / 2;
+            if (child_x < tops[-1].width && child_y < tops[-1].height)
+                raise_for_block(job, apex, level - 1, child_x, child_y);
+        }
+    } else if (far) {
+        apex->m = fmax(apex->m, corner_slope(job, apex, x0, y0) * stretch(d));
+    }
+}
+
+static void find_cones_of_row(void *context, int y) {
+    const Job *job = context;
+    int coarsest = job->pyramid.count - 1;
+    for (int x = 0; x < job->cones->width; x++) {
+        const float *heights = corners_at(job, x, y);
+        Apex apex = {x, y, heights, lowest_corner(heights), near_cone(job, x, y)};
+        raise_for_block(job, &apex, coarsest, 0, 0);
+        *image_at(job->cones, x, y) = nextafterf((float)apex.m, INFINITY);
+    }
+}
+
+/* The map repeated until no cell is near another in two ways. */
+static Image repeat(const Image *height) {
+    int across = (SIDE_LEAST + height->width - 1) / height->width;
+    int up = (SIDE_LEAST + height->height - 1) / height->height;
+    Image repeated = image_create(across * height->width, up * height->height, 1);
+    for (int y = 0; y < repeated.height; y++)
+        for (int x = 0; x < repeated.width; x++)
+            *image_at(&repeated, x, y) = *image_at(height, x % height->width, y % height->height);
+    return repeated;
+}
+
+Image cone_build(const Image *height) {
+    Image repeated = repeat(height), cones = image_create(height->width, height->height, 1);
+    Job job = {corners_build(&repeated), pyramid_build(&repeated), &cones};
+    parallel_for(height->height, find_cones_of_row, &job);
+    image_destroy(&job.corners);
+    pyramid_destroy(&job.pyramid);
+    image_destroy(&repeated);
+    return cones;
+}
