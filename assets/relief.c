@@ -151,12 +151,12 @@ static Wishes read_options(int count, char **arguments) {
         case UNIT: wishes.unit = optarg; break;
         case LIKE: wishes.like = optarg; break;
         case HOLLOW: wishes.hollow = true; break;
-        case BITS: wishes.bits = (int)number("bits", optarg, true); break;
+        case BITS: wishes.bits = strcmp(optarg, "8") ? strcmp(optarg, "16") ? 0 : 16 : 8; break;
         case 'h': fputs(usage, stdout); exit(0);
         case ':': fail_usage("%s: its value is missing", arguments[optind - 1]);
         default: fail_usage("%s: no such option; --help lists them", arguments[optind - 1]);
         }
-    if (wishes.bits != 8 && wishes.bits != 16) fail_usage("--bits: neither 8 nor 16");
+    if (!wishes.bits) fail_usage("--bits: neither 8 nor 16");
     if (wishes.unit && strlen(wishes.unit) >= sizeof((Basis *)0)->unit)
         fail_usage("--unit %s: longer than %zu bytes", wishes.unit, sizeof((Basis *)0)->unit - 1);
     return wishes;
@@ -175,7 +175,8 @@ int main(int count, char **arguments) {
     while (command < COMMANDS && strcmp(paths[-1], commands[command].name)) command++;
     if (command == COMMANDS) fail_usage("%s: neither combine, split nor show", paths[-1]);
     if (given != commands[command].paths)
-        fail_usage("%s takes %d files, not %d", paths[-1], commands[command].paths, given);
+        fail_usage("%s takes %d file%s, not %d", paths[-1], commands[command].paths,
+                   commands[command].paths == 1 ? "" : "s", given);
     if (command == COMBINE)
         combine(paths, &wishes);
     else if (command == SPLIT)

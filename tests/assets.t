@@ -1,6 +1,7 @@
 #!/usr/bin/perl
-# The images: generate draws the same bytes every time, fetch lets no wrong byte through, and stereo refuses a
-# disparity file that it cannot trust. Needs no network: apt-get is a stand-in here.
+# The images: generate draws the same bytes every time, fetch lets no wrong byte through, stereo and terrain refuse
+# a file that they cannot trust, and relief textures say what they measure. Needs no network: apt-get is a
+# stand-in here.
 use strict;
 use warnings;
 use File::Copy 'copy';
@@ -45,6 +46,18 @@ sub refuses {
     like $err, qr/^$program: [^\n]*$line[^\n]*\n\z/, "$what: one line that says so";
 }
 
+# Two files of the same bytes.
+sub same {
+    my ($one, $other) = map { slurp($_) } @_[0, 1];
+    ok defined $one && defined $other && $one eq $other, $_[2];
+}
+
+# A second run of a program that writes into a folder: the same bytes as in build/assets.
+sub same_bytes {
+    my ($dir, @names) = @_;
+    same("$dir/$_", "build/assets/$_", "$_: the same bytes as in build/assets") for @names;
+}
+
 # ---- generate ----
 
 my @drawn = map { "$_.png" } qw(checker zone-plate uv-grid soft-height pins-height brick-colour brick-height brick-normal
@@ -53,10 +66,7 @@ make_path("$tmp/first");
 is((run('build/generate', "$tmp/first"))[0], 0, 'generate runs');
 opendir my $folder, "$tmp/first" or die;
 is_deeply [sort grep { !/^\.\.?$/ } readdir $folder], [sort @drawn], 'it draws these and leaves nothing else';
-for my $name (@drawn) {
-    my ($first, $built) = (slurp("$tmp/first/$name"), slurp("build/assets/$name"));
-    ok defined $first && defined $built && $first eq $built, "$name: the same bytes as in build/assets";
-}
+same_bytes("$tmp/first", @drawn);
 refuses('a folder that is not there', 1, 'generate', "$tmp/none/checker.png: ", 'build/generate', "$tmp/none");
 
 # ---- fetch ----
@@ -141,8 +151,12 @@ sub npy {
     return "\x93NUMPY\x01\x00" . pack('v', length $header) . $header . $values;
 }
 
+my @stereo = qw(stereo-colour.png stereo-height.exr stereo-mask.png stereo-relief.exr);
 my $scene = "$tmp/scene";
 make_path($scene);
+copy("build/assets/$_", "$scene/$_") or die "$_: $!" for qw(motorcycle_left.png motorcycle_disp.npy);
+is((run('build/stereo', $scene))[0], 0, 'stereo runs');
+same_bytes($scene, @stereo);
 copy('build/assets/checker.png', "$scene/motorcycle_left.png") or die "checker.png: $!";
 # The left half far, the right half near, one pixel unknown: so is one texel, of 128 x 128.
 my @row = ((10) x 128, (40) x 128);
@@ -151,10 +165,10 @@ $disparity[256 * 101 + 51] = 9**9**9;
 my $good = pack 'f<*', @disparity;
 spew("$scene/motorcycle_disp.npy", npy($good));
 my ($status, $out) = run('build/stereo', $scene);
-is $status, 0, 'stereo runs';
+is $status, 0, 'stereo runs on a scene of two depths';
 like $out, qr/128 x 128 texels, 0\.01 % of them unknown/, 'one unknown pixel makes one unknown texel';
 like $out, qr/depth 2701 to 4674 mm/, 'z = baseline f / (disparity + shift)';
-ok -s "$scene/$_", "$_ is written" for qw(stereo-colour.png stereo-height.exr stereo-mask.png);
+ok -s "$scene/$_", "$_ is written" for @stereo;
 unlink glob "$scene/stereo-*";
 
 my @bad = (
@@ -175,5 +189,122 @@ for my $case (@bad) {
     refuses($what, 1, 'stereo', "$scene/motorcycle_\\w+\\.\\w+: .*$line", 'build/stereo', $scene);
 }
 is_deeply [glob "$scene/stereo-*"], [], 'and none of them left a picture';
+
+# ---- terrain ----
+
+# A topography of 400 x 400 pixels as a PPM (which is known by its content, whatever its name): heights in metres by
+# column and row from the top; elsewhere it is 1000 m high.
+sub topography {
+    my ($path, $side, %metres) = @_;
+    my $plain = pack 'C3', map { $_ & 255 } 1000 * 11983 >> 16, 1000 * 11983 >> 8, 1000 * 11983;
+    my $pixels = $plain x $side ** 2;
+    for my $place (keys %metres) {
+        my ($x, $y) = split ' ', $place;
+        my $packed = $metres{$place} * 11983;
+        substr $pixels, 3 * ($x + $side * $y), 3, pack 'C3', map { $_ & 255 } $packed >> 16, $packed >> 8, $packed;
+    }
+    spew($path, "P6\n$side $side\n255\n$pixels");
+}
+
+my $mountain = "$tmp/mountain";
+make_path($mountain);
+copy('build/assets/topography.png', "$mountain/topography.png") or die "topography.png: $!";
+is((run('build/terrain', $mountain))[0], 0, 'terrain runs');
+same_bytes($mountain, 'terrain-relief.png');
+
+# The crop is columns 40..295 and rows 60..315. Its lowest and highest points lie in its corners; what is lower and
+# higher lies just outside of them.
+topography("$mountain/topography.png", 400, '40 315' => 500, '295 60' => 1200, '39 315' => 100, '40 316' => 101,
+    '296 60' => 1300, '295 59' => 1301);
+is((run('build/terrain', $mountain))[0], 0, 'terrain runs on a plain');
+like shown("$mountain/terrain-relief.png"), qr/^origin   800 1680 1200 m\n.*^depth    700 m /ms, 'heights are metres';
+unlink "$mountain/terrain-relief.png";
+topography("$mountain/topography.png", 400);
+refuses('a plain and nothing on it', 1, 'terrain', "$mountain/topography.png: .*same", 'build/terrain', $mountain);
+topography("$mountain/topography.png", 300);
+refuses('a small topography', 1, 'terrain', "$mountain/topography.png: .*smaller", 'build/terrain', $mountain);
+ok !-e "$mountain/terrain-relief.png", 'and none of them left a picture';
+
+# ---- relief ----
+
+sub shown {
+    my ($status, $out) = run('build/relief', 'show', @_);
+    is $status, 0, "$_[0] is a relief texture";
+    return $out;
+}
+
+# An image of one pixel, whose height is 2.
+sub tall {
+    spew($_[0], "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" . pack 'C4', 128, 128, 128, 130);
+    return $_[0];
+}
+
+sub relief_refuses {
+    my ($what, $status, $line, @arguments) = @_;
+    refuses($what, $status, 'relief', $line, 'build/relief', @arguments);
+}
+
+is shown('build/assets/brick-relief.png'), <<'END', 'the wall: 720 mm wide, 72 mm deep';
+texels   256 x 256, 16 bits
+scale    0.1
+base     1
+origin   -360 -360 0 mm
+a        720 0 0 mm
+b        0 720 0 mm
+f        0 0 1
+depth    72 mm from h = 0 to h = 1, shown 1 times as deep
+END
+is shown('build/assets/terrain-relief.png'), <<'END', 'the mountain: 5120 m wide, its summit at 530.6 m';
+texels   256 x 256, 16 bits
+scale    0.10197566
+base     1
+origin   800 1680 530.6049194 m
+a        5120 0 0 m
+b        0 5120 0 m
+f        0 0 1.5
+depth    348.0769196 m from h = 0 to h = 1, shown 1.5 times as deep
+END
+is shown('build/assets/stereo-relief.exr'), <<'END', 'the motorcycle: 2889 mm deep';
+texels   370 x 250, 32 bits
+scale    0.1150286462
+base     1
+origin   -784.8445455 -530.3003686 -2110.548801 mm
+a        1569.689091 0 0 mm
+b        0 1060.600737 0 mm
+f        0 0 0.0625
+depth    2888.947377 mm from h = 0 to h = 1, shown 0.0625 times as deep
+END
+
+my ($c, $h, $r) = map { "$tmp/$_" } qw(c.png h.png r.png);
+my @wall = map { "build/assets/brick-256-$_.png" } qw(colour height);
+is((run('build/relief', 'split', 'build/assets/brick-relief.png', $c, $h))[0], 0, 'relief splits');
+same($h, $wall[1], 'the height is what it was made of');
+is((run('build/relief', 'combine', $c, $h, $r, '--like', 'build/assets/brick-relief.png'))[0], 0, 'and combines');
+same($r, 'build/assets/brick-relief.png', 'the same bytes again');
+is((run('build/relief', 'combine', qw(--scale=-0.25 --base 0.5 --hollow --bits=8), @wall, $r))[0], 0, 'with options');
+is shown($r), "texels   256 x 256, 8 bits\nscale    -0.25\nbase     0.5\nhollow   where h = 0\n", 'which it keeps';
+is((run('build/relief', 'combine', ('build/assets/checker.png') x 2, $r))[0], 0, 'from what says nothing');
+is shown($r), "texels   256 x 256, 16 bits\nscale    0.1\nbase     1\n", 'scale 0.1 and base 1';
+my @clean = ('env', map({ ('-u', $_) } qw(MAKEFLAGS MAKELEVEL MFLAGS)), 'make', '-s', 'relief');
+is((run(@clean, "COLOUR=$wall[0]", "HEIGHT=$wall[1]", "OUT=$r", 'WIDTH=720', 'UNIT=mm'))[0], 0, 'make relief');
+same($r, 'build/assets/brick-relief.png', 'does the same');
+my ($made, undef, $said) = run(@clean, "COLOUR=$wall[0]");
+ok $made == 2 && $said =~ /usage: make relief COLOUR=/, 'and says what it lacks';
+
+unlink $r;
+relief_refuses('nothing to do', 2, 'usage');
+relief_refuses('an unknown command', 2, 'fold', 'fold', $r);
+relief_refuses('files too few', 2, 'takes 3 files, not 2', 'combine', $c, $h);
+relief_refuses('files too many', 2, 'takes 1 files?, not 2', 'show', $c, $h);
+relief_refuses("an unknown option", 2, '--deep', 'combine', $c, $h, $r, '--deep');
+relief_refuses("no value", 2, '--scale', 'combine', $c, $h, $r, '--scale');
+relief_refuses("--$_->[0] $_->[1]", 2, "--$_->[0]", 'combine', $c, $h, $r, "--$_->[0]=$_->[1]")
+    for [scale => 'deep'], [scale => 'nan'], [base => '1,5'], [width => 0], [bits => 12], [bits => 8.5],
+    [unit => 'nautical miles!!'];
+relief_refuses('two sizes', 1, "$r: .*256 x 256 .*128 x 128", 'combine', $c, 'build/assets/soft-height.png', $r);
+relief_refuses('heights above 1', 1, 'tall.hdr: a height must', 'combine', $c, tall("$tmp/tall.hdr"), $r);
+relief_refuses('like no relief', 1, "$c: not a relief", 'combine', $c, $h, $r, '--like', $c);
+relief_refuses('no relief to show', 1, "$h: not a relief", 'show', $h);
+ok !-e $r, 'and none of them left a picture';
 
 done_testing;
