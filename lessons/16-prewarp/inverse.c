@@ -73,6 +73,18 @@ static double clearance(const Source *source, const Line *line, int column, int 
     return line->dh > 0.0 ? -above : above;
 }
 
+/* Whether the line stays on the eye's side of all four of a cell's heights until s. */
+static bool misses_cell(const Source *source, const Line *line, int column, int row, double until) {
+    Corners corners = corners_at(source, column, row, 0.0, 0.0);
+    double level = 65535.0 * (line->h + until * line->dh);
+    bool misses = true;
+    for (int i = 0; i < 4; i++) {
+        double corner = source->levels[corners.index[i]];
+        misses = misses && (line->dh > 0.0 ? level < corner : level > corner);
+    }
+    return misses;
+}
+
 /* The first t of 0..1 at which the quadratic with those values at 0, 1/2 and 1 is zero or below; 2 if none.
  */
 static double first_zero(double start, double middle, double end) {
@@ -108,11 +120,13 @@ static bool line_meets(const Source *source, const Line *line, double *s, int *c
     while (*column >= -1 && *column < source->width && *row >= -1 && *row < source->height) {
         double s_x = leaving(line->x, line->dx, *column), s_y = leaving(line->y, line->dy, *row);
         double until = clamp(fmin(s_x, s_y), from, to);
-        double t = first_zero(clearance(source, line, *column, *row, from),
-                              clearance(source, line, *column, *row, 0.5 * (from + until)),
-                              clearance(source, line, *column, *row, until));
-        *s = from + t * (until - from);
-        if (t <= 1.0) return true;
+        if (!misses_cell(source, line, *column, *row, until)) {
+            double t = first_zero(clearance(source, line, *column, *row, from),
+                                  clearance(source, line, *column, *row, 0.5 * (from + until)),
+                                  clearance(source, line, *column, *row, until));
+            *s = from + t * (until - from);
+            if (t <= 1.0) return true;
+        }
         if (until >= to) return false;
         from = until;
         if (s_x <= s_y) *column += line->dx > 0.0 ? 1 : -1;

@@ -178,20 +178,28 @@ static double own_rise(const Judge *judge, int x, int y) {
     return rise;
 }
 
+static double exact_height(const Judge *judge, int i) {
+    double h;
+    image_sample(&judge->heights, judge->exact[i].u, judge->exact[i].v, &h);
+    return h;
+}
+
 /* The source's texel nearest to (u, v), which may lie up to its edges. */
 static int nearest_to(int size, double u) { return (int)clamp(floor(u * size), 0.0, size - 1.0); }
 
 double judge_order_violation_percent(const Judge *judge, const Destination *destination) {
     const int width = judge->source->width, height = judge->source->height;
+    const double rounding = 1e-6; /* of the lookup's floats */
     double violations = 0.0, seen = 0.0;
     for (int i = 0; i < judge->width * judge->height; i++) {
         int highest = judge->highest[i];
         if (highest < 0 || is_empty(&destination->texels[i])) continue;
         const float *shown = &destination->lookup[3 * i];
-        double allowed = own_rise(judge, highest % width, highest / width) +
-                         own_rise(judge, nearest_to(width, shown[0]), nearest_to(height, shown[1]));
+        double rise = own_rise(judge, nearest_to(width, shown[0]), nearest_to(height, shown[1]));
+        double allowed = rise + own_rise(judge, highest % width, highest / width) + rounding;
+        bool right = judge->exact[i].hit && shown[2] >= exact_height(judge, i) - rise - rounding;
         seen++;
-        violations += judge->sightings[highest].height - shown[2] > allowed + 1e-6; /* of floats' rounding */
+        violations += judge->sightings[highest].height - shown[2] > allowed && !right;
     }
     return percent(violations, seen);
 }
