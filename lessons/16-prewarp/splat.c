@@ -5,6 +5,7 @@
 #include "light.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Red, green, blue and the normal, all times alpha; and alpha. */
 enum { ALPHA = 6, CHANNELS };
@@ -18,7 +19,7 @@ typedef struct {
     Destination *destination;
     const Light *light;
     Cover *covers;     /* one a destination texel */
-    uint16_t *nearest; /* the nearest level that touched it, for the depth buffer */
+    uint16_t *nearest; /* the level of the spot of which most is seen there, for the depth buffer */
     float pitch; /* destination texels from one texel of a level relief to the next, where 1 + k3 d is 1 */
 } Painter;
 
@@ -50,10 +51,10 @@ static void lay(const Painter *painter, size_t at, const Spot *spot, float part)
                 is_nearer(painter->factors, spot->level, painter->nearest[at]);
     float of_shown = over ? 1.0f - part : 1.0f, of_spot = over ? part : (1.0f - before) * part;
     for (int c = 0; c < CHANNELS; c++) shown[c] = of_shown * shown[c] + of_spot * spot->opaque.value[c];
-    if (over) painter->nearest[at] = spot->level;
-    float *lookup = painter->destination->lookup;
-    for (int k = 0; lookup && k < 3 && of_spot >= of_shown * before; k++)
-        lookup[3 * at + k] = spot->lookup[k];
+    if (of_spot < of_shown * before) return; /* less of it is seen than of what was there */
+    painter->nearest[at] = spot->level;
+    if (painter->destination->lookup)
+        memcpy(&painter->destination->lookup[3 * at], spot->lookup, sizeof spot->lookup);
 }
 
 static int ceil_int(float x) { return (int)ceilf(x); }

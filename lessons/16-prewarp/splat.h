@@ -2,8 +2,9 @@
  * neighbours overlap and nothing shows between them while they are less than two radii apart.
  *
  * Spots are composited with premultiplied alpha, in linear light. In occlusion-compatible order each is laid
- * over what is there. With the depth buffer it is laid over what is farther and under what is nearer; that is
- * exact for two layers, while of three that come as near, far, middle the last two stay swapped. */
+ * over what is there. With the depth buffer it is laid over a farther spot and under a nearer one, the other
+ * being the one of which most is seen there: that is exact for two layers, while of three that come as near,
+ * far, middle the last two stay swapped. */
 #ifndef LESSON_SPLAT_H
 #define LESSON_SPLAT_H
 
