@@ -19,8 +19,9 @@ typedef struct {
     double scale;                /* --scale, or NAN */
 } Options;
 
-/* A camera by name. An extra view is measured like the others, but the report shows no picture of it and
- * times nothing there: for many directions of one thing. Asked for by --view, it is like any other. */
+/* A camera by name. An extra view is measured like the others, but the report shows no picture of it, times
+ * nothing there and computes no flip: for many directions of one thing. Asked for by --view, it is like any
+ * other. */
 typedef struct {
     const char *name;
     Camera camera;

@@ -136,6 +136,8 @@ static void report_difference(Session *session, const Variant *variant, Image *p
     bool wanted[4], any = errors != NULL;
     for (int i = 0; i < 4; i++) {
         wanted[i] = wants_row(session, variant, view, names[filter][i]);
+        if (i == 3)
+            wanted[i] = wanted[i] && is_shown(session->choice, reference->view); /* it takes longest */
         any = any || wanted[i];
     }
     if (!any) return;
@@ -400,10 +402,13 @@ static int choose_views(const Scene *scene, const Choice *choice, const View *vi
         return 1;
     }
     int count = 0;
-    for (int i = 0; i < view_count(scene); i++)
-        if (chosen(choice->view, scene->views[i].name) &&
-            only_wants(choice->only, scene->name, NULL, ONLY_ANY_KNOB, scene->views[i].name, NULL))
-            views[count++] = &scene->views[i];
+    for (int i = 0; i < view_count(scene); i++) {
+        const View *view = &scene->views[i];
+        bool wanted = view->extra /* too many to be meant by a "-" */
+                          ? only_names_view(choice->only, scene->name, view->name)
+                          : only_wants(choice->only, scene->name, NULL, ONLY_ANY_KNOB, view->name, NULL);
+        if (wanted && chosen(choice->view, view->name)) views[count++] = view;
+    }
     return count;
 }
 

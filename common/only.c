@@ -78,6 +78,14 @@ bool only_wants(const Only *only, const char *scene, const char *technique, doub
     return false;
 }
 
+bool only_names_view(const Only *only, const char *scene, const char *view) {
+    bool named = !only;
+    for (int i = 0; only && i < only->count; i++)
+        named = named ||
+                (matches(only->rows[i].fields[SCENE], scene) && matches(only->rows[i].fields[VIEW], view));
+    return named;
+}
+
 bool shots_want(const Shots *shots, const View *view, const char *metric) {
     const Frame *frame = shots->frame;
     return only_wants(shots->only, frame->scene->name, frame->technique->name, frame->knob,

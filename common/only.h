@@ -21,4 +21,7 @@ enum { ONLY_ANY_KNOB = -1 };
 bool only_wants(const Only *only, const char *scene, const char *technique, double knob, const char *view,
                 const char *metric);
 
+/* Whether any row is about this view of the scene by its name, a "-" not counting. With only NULL all are. */
+bool only_names_view(const Only *only, const char *scene, const char *view);
+
 #endif
