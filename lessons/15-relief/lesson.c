@@ -20,7 +20,8 @@
     {MARCHED("relief", "linear steps, then 6 halvings (Policarpo, Oliveira, Comba 2005)"), \
      STEPS(8, 32, 128, 512, 1024, 4096)}
 #define MAXIMUM {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)")}
-#define MARCHES PARALLAX, STEEP, OCCLUSION, RELIEF, MAXIMUM
+#define CONE {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), STEPS(8, 32, 128, 512)}
+#define MARCHES PARALLAX, STEEP, OCCLUSION, RELIEF, CONE, MAXIMUM
 
 /* ---- The views: orthographic, turned about y by an angle that so every ray has; the polygon fills them, and
  * their middle is low on a course of bricks, for a picture at 87 degrees is but 10 texels high ---- */

@@ -9,8 +9,8 @@
 // the ray falls below. There the patch decides.
 float maximum(sampler2D pyramid_map, sampler2D corner_map, HeightRay line) {
     CellRay ray = cell_ray(corner_map, line);
-    float t = 0.0, side = 8.0, top, leave;
-    int level = 3, coarsest = int(log2(max(ray.size.x, ray.size.y)));
+    int coarsest = int(log2(max(ray.size.x, ray.size.y))), level = min(3, coarsest);
+    float t = 0.0, side = exp2(float(level)), top, leave;
     vec2 cell, texel;
     for (int steps = 0; steps < 4096; steps++) {
         for (; steps < 4096; steps++) {

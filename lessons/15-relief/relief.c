@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "relief.h"
 
+#include "cone.h"
 #include "fail.h"
 #include "hits.h"
 #include "pyramid.h"
@@ -11,6 +12,44 @@
 
 static const double AMBIENT = 0.2; /* the light that shadows have too */
 
+/* ---- The maps ---- */
+
+static double milliseconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+Maps maps_create(const Image *height) {
+    double start = milliseconds();
+    Image corners = corners_build(height);
+    double with_corners = milliseconds();
+    Pyramid pyramid = pyramid_build(height);
+    double with_pyramid = milliseconds();
+    Image cones = cone_build(height);
+    Maps maps = {.corners = texture_create(&corners, 1, TEXTURE_FLOAT, TEXTURE_NEAREST),
+                 .pyramid = texture_create(pyramid.levels, pyramid.count, TEXTURE_FLOAT, TEXTURE_MIP_NEAREST),
+                 .cones = texture_create(&cones, 1, TEXTURE_FLOAT, TEXTURE_NEAREST),
+                 .pyramid_ms = with_pyramid - start,
+                 .cones_ms = (with_corners - start) + (milliseconds() - with_pyramid)};
+    image_destroy(&corners);
+    pyramid_destroy(&pyramid);
+    image_destroy(&cones);
+    return maps;
+}
+
+void maps_bind(const Maps *maps, Program *program) {
+    program_texture(program, "corner_map", &maps->corners);
+    program_texture(program, "pyramid_map", &maps->pyramid);
+    program_texture(program, "cone_map", &maps->cones);
+}
+
+void maps_destroy(Maps *maps) {
+    texture_destroy(&maps->corners);
+    texture_destroy(&maps->pyramid);
+    texture_destroy(&maps->cones);
+}
+
 /* ---- Loading ---- */
 
 /* From the upper left at first, then around the normal once in 12 s. */
@@ -19,27 +58,10 @@ static Vec3 light_after(double seconds) {
     return vec3_normalize(v3(tangent * cos(angle), tangent * sin(angle), 1.0));
 }
 
-static double milliseconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
-static void build_pyramid(Field *field) {
-    double start = milliseconds();
-    Image corners = corners_build(&field->wall.height_image);
-    Pyramid pyramid = pyramid_build(&field->wall.height_image);
-    field->pyramid_ms = milliseconds() - start;
-    field->corners = texture_create(&corners, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
-    field->pyramid = texture_create(pyramid.levels, pyramid.count, TEXTURE_FLOAT, TEXTURE_MIP_NEAREST);
-    image_destroy(&corners);
-    pyramid_destroy(&pyramid);
-}
-
 static Field *load(const Options *options) {
     Field *field = allocate(1, sizeof *field);
     wall_load(&field->wall, options);
-    build_pyramid(field);
+    field->maps = maps_create(&field->wall.height_image);
     field->light = light_after(0.0);
     return field;
 }
@@ -61,8 +83,7 @@ void *relief_load_cut(const Options *options) {
 
 void relief_unload(void *data) {
     Field *field = data;
-    texture_destroy(&field->corners);
-    texture_destroy(&field->pyramid);
+    maps_destroy(&field->maps);
     wall_unload(&field->wall);
     free(field);
 }
@@ -72,8 +93,7 @@ void relief_unload(void *data) {
 void relief_draw(const Frame *frame) {
     const Field *field = frame->data;
     wall_bind(&field->wall, frame->program);
-    program_texture(frame->program, "corner_map", &field->corners);
-    program_texture(frame->program, "pyramid_map", &field->pyramid);
+    maps_bind(&field->maps, frame->program);
     program_vector(frame->program, "light", field->light.x, field->light.y, field->light.z, 0);
     program_number(frame->program, "ambient", AMBIENT);
     /* How much higher than the point the light's ray must be stopped: what the two searches may differ by. */

@@ -5,10 +5,21 @@
 
 #include "wall.h"
 
+/* The maps that searches stand on beside the heights: see pyramid.h and cone.h. */
+typedef struct {
+    Texture corners, pyramid, cones;
+    double pyramid_ms, cones_ms; /* what they took to build, the corners with each */
+} Maps;
+
+/* Builds them for a height map of one channel. maps_bind gives the program in use corner_map, pyramid_map and
+ * cone_map. */
+Maps maps_create(const Image *height);
+void maps_bind(const Maps *maps, Program *program);
+void maps_destroy(Maps *maps);
+
 typedef struct {
     Wall wall;
-    Texture corners, pyramid; /* see pyramid.h */
-    double pyramid_ms;        /* what both took to build */
+    Maps maps;
     bool lit;
     Vec3 light; /* unit, toward it, in the polygon's frame */
 } Field;
