@@ -6,14 +6,15 @@ GENERATED := $(addprefix $(B)/assets/,checker.png zone-plate.png uv-grid.png sof
 fetched_rows := NR > 1 && $$NF !~ /^later/ { print $$1 }
 FETCHED := $(addprefix $(B)/assets/,$(shell awk -F, '$(fetched_rows)' assets/manifest.csv))
 STEREO := $(addprefix $(B)/assets/,stereo-colour.png stereo-height.exr stereo-mask.png stereo-relief.exr)
-ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(addprefix $(B)/assets/,terrain-relief.png brick-relief.png)
+OBJECTS := $(foreach face,left right bottom top back front,$(B)/assets/solids-$(face).png $(B)/assets/bunny-$(face).png)
+ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(OBJECTS) $(addprefix $(B)/assets/,terrain-relief.png brick-relief.png)
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief: $(B)/%: assets/%.c | $(LIBRARIES)
+$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief $(B)/object: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
-		$(LDFLAGS) -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
+		$(LDFLAGS) $(LINK_RAYS) $(LINK_TEXEL)
 
 # fetch leaves alone what is there, so its files may be older than the manifest: touch says they are checked.
 $(FETCHED) &: assets/fetch assets/manifest.csv
@@ -34,6 +35,10 @@ $(B)/assets/terrain-relief.png: $(B)/terrain $(B)/assets/topography.png
 	$(call say,TERRAIN,$@)
 	$(Q)$(B)/terrain $(B)/assets >$(B)/terrain.log
 
+$(OBJECTS) &: $(B)/object $(B)/assets/bunny.obj common/object.c
+	$(call say,OBJECT,$(B)/assets)
+	$(Q)$(B)/object $(B)/assets >$(B)/object.log
+
 # A brick and its joint are 240 mm by 90 mm.
 $(B)/assets/brick-relief.png: $(B)/relief $(B)/assets/brick-256-colour.png $(B)/assets/brick-256-height.png
 	$(call say,RELIEF,$@)
@@ -52,4 +57,4 @@ relief: $(B)/relief ## (COLOUR=a.png HEIGHT=b.png OUT=c.png) make a relief textu
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz
 	$(Q)unzip -p $< arr_0.npy >$@.part && mv $@.part $@
 
--include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d
+-include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d $(B)/object.d
