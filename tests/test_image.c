@@ -690,6 +690,9 @@ static void reliefs_survive(void **state) {
     assert_null(image_write_relief(&colour, &height, exr, 32));
     assert_relief(exr, 32, &colour, &height, 0, 0);
 
+    file_read(exr, &scratch); /* no other program may take the fourth channel for alpha */
+    assert_non_null(memmem(scratch.bytes, scratch.size, "height\0\2\0\0\0", 11));
+    assert_null(memmem(scratch.bytes, scratch.size, "A\0\2\0\0\0", 6));
     Image raw = image_load(exr, IMAGE_RAW); /* and the four channels as they are stored */
     assert_image(&raw, 13, 7, 4, 32);
     assert_false(raw.relief);
