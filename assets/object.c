@@ -101,7 +101,8 @@ static void cast_row(void *context, int y) {
         Vec3 colour;
         if (!relief->object->meet(relief->object->rays, ray, &depth, &colour)) continue;
         double h = 1.0 - depth / relief->deep;
-        if (!(h > 0.5 / 65535 && h < 1.0)) fail("%s: it does not fit its box", relief->object->name);
+        bool border = x == 0 || y == 0 || x == TEXELS - 1 || y == TEXELS - 1;
+        if (!(h > 0.0 && h < 1.0) || border) fail("%s: it does not fit its box", relief->object->name);
         *image_at(&relief->height, x, y) = (float)h;
         float *texel = image_at(&relief->colour, x, y);
         texel[0] = (float)colour.x, texel[1] = (float)colour.y, texel[2] = (float)colour.z;

@@ -12,17 +12,16 @@ const Solid toy_solids[TOY_SOLIDS] = {
     {SOLID_SPHERE, {0.8, 0, 0}, {0.6, -0.1, 0.1}, {0, 0, 0}, {0.2, 0.55, 0.15}},       /* right */
     {SOLID_CYLINDER, {0.6, 0.7, 0}, {-0.65, 0, -0.1}, {0, 0, 90}, {0.6, 0.55, 0.12}},  /* left */
     {SOLID_SPHERE, {0.7, 0, 0}, {0.15, 0, 0.62}, {0, 0, 0}, {0.5, 0.15, 0.5}},         /* in front */
-    {SOLID_BOX, {0.55, 0.55, 0.7}, {-0.1, -0.1, -0.6}, {8, 12, 30}, {0.1, 0.5, 0.5}},  /* behind */
+    {SOLID_BOX, {0.55, 0.55, 0.7}, {-0.1, -0.1, -0.54}, {8, 12, 30}, {0.1, 0.5, 0.5}}, /* behind */
     {SOLID_CYLINDER, {1, 0.5, 0}, {0, -0.75, 0}, {0, 0, 0}, {0.45, 0.45, 0.5}},        /* the foot */
 };
 const Vec3 toy_box = {2.1, 2.06, 2.02};
 
-/* From -1 to 1 and back, once in `length`, all but flat in between: the tone of a soft stripe. */
+/* From -1 to 1 and back, once in `length`. */
 static double wave(double x, double length) { return sin(2.0 * PI * x / length); }
 
 Vec3 toy_colour(const Solid *solid, Vec3 position) {
-    const double check = 0.22,
-                 start = 0.05; /* so that no face of the body lies between two layers of checks */
+    const double check = 0.22, start = 0.11; /* so that no face of the body lies between two layers */
     double sides = wave(position.x - start, 2 * check) * wave(position.y - start, 2 * check) *
                    wave(position.z - start, 2 * check);
     return vec3_scale(solid->colour, 0.75 + 0.25 * clamp(4.0 * sides, -1.0, 1.0));

@@ -1,7 +1,7 @@
 /* The two objects of the relief objects: one of solids, exact by its formula, and the Stanford bunny, a mesh.
  * What makes their textures (assets/object.c) and what judges the pictures see them through this file. Each
  * lies around the origin within a box, of which it keeps a margin: a ray along an edge of the box meets
- * nothing. Up is +y, and the front is toward +z. */
+ * nothing. Up is +y; the front is toward +z, where the bunny shows its flank: it looks toward -x. */
 #ifndef TEXEL_OBJECT_H
 #define TEXEL_OBJECT_H
 
@@ -21,7 +21,7 @@ Vec3 toy_colour(const Solid *solid, Vec3 position);
  * file cannot be read. */
 Mesh bunny_load(const char *path, Vec3 *box);
 
-/* Soft bands, for the bunny has no colour of its own. */
+/* Soft bands, in linear light, for the bunny has no colour of its own. */
 Vec3 bunny_colour(Vec3 position);
 
 #endif

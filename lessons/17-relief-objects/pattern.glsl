@@ -6,7 +6,7 @@ float wave(float x, float length) { return sin(6.28318530717959 * x / length); }
 
 // A checker in three dimensions, with soft edges: the tone of a solid at a point.
 float toy_tone(vec3 at) {
-    float sides = wave(at.x - 0.05, 0.44) * wave(at.y - 0.05, 0.44) * wave(at.z - 0.05, 0.44);
+    float sides = wave(at.x - 0.11, 0.44) * wave(at.y - 0.11, 0.44) * wave(at.z - 0.11, 0.44);
     return 0.75 + 0.25 * clamp(4.0 * sides, -1.0, 1.0);
 }
 
