@@ -6,16 +6,19 @@
 #include <string.h>
 
 /* Sixteen bits of normal are no more than the eight that were warped, but OSMesa filters eight with weights
- * of eight bits. What is a hole becomes 0 in all channels, so that a linear filter can tell how much of what
- * it mixes is there. */
+ * of eight bits. Everything is weighed by alpha, so that a linear filter mixes no more of a texel than is
+ * there.
+ */
 static void split(const Destination *destination, uint8_t (*colours)[4], uint16_t (*normals)[4]) {
     size_t count = (size_t)destination->width * destination->height;
     for (size_t i = 0; i < count; i++) {
         const Texel *texel = &destination->texels[i];
-        unsigned share = texel->colour[3];
+        unsigned alpha = texel->colour[3];
         memcpy(colours[i], texel->colour, 4);
-        for (int c = 0; c < 3; c++) normals[i][c] = (uint16_t)(share ? 257 * texel->normal[c] : 0);
-        normals[i][3] = (uint16_t)(257 * share);
+        for (int c = 0; c < 3; c++) normals[i][c] = (uint16_t)(257u * texel->normal[c] * alpha / 255);
+        normals[i][3] = (uint16_t)(257 * alpha);
+        for (int c = 0; c < 3 && alpha < 255; c++)
+            colours[i][c] = srgb_byte((float)(srgb_decode(texel->colour[c] / 255.0) * alpha / 255));
     }
 }
 

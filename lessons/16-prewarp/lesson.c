@@ -8,32 +8,69 @@
 
 /* clang-format off */
 #define SHADED(id, says) .name = id, .what = says, .vertex = "surface.vert", .fragment = "warped.frag"
-
 #define WARPED(id, way, says) {SHADED(id, says), .variant = way, .prepare = scene_prepare}
 
 #define NOT_WARPED {SHADED("plain", "the texture as it lies on the polygon"), .variant = PLAIN}
+#define BY_DEPTH \
+    WARPED("depth-none", DEPTH_NONE, "a depth buffer keeps the nearest (West); holes stay"), \
+    WARPED("depth-linear", DEPTH_LINEAR, "a depth buffer; holes filled between a texel and its neighbours"), \
+    WARPED("depth-splat", DEPTH_SPLAT, "a depth buffer; each texel a soft spot")
 #define BY_ORDER \
-    WARPED("occlusion-none", ORDER_NONE, "painted toward the epipole, each texel where it lands"), \
-    WARPED("occlusion-linear", ORDER_LINEAR, "painted toward the epipole, cell by cell between texels")
-#define INVERSELY WARPED("inverse", INVERSE, "for each texel of the result the relief's first point on its ray")
-#define IN_TWO_PASSES WARPED("two-pass", TWO_PASS, "rows, then columns")
+    WARPED("occlusion-none", ORDER_NONE, "painted toward the epipole (McMillan), no buffer; holes stay"), \
+    WARPED("occlusion-linear", ORDER_LINEAR, "painted toward the epipole; holes filled between neighbours"), \
+    WARPED("occlusion-splat", ORDER_SPLAT, "painted toward the epipole; each texel a soft spot")
+#define IN_TWO_PASSES WARPED("two-pass", TWO_PASS, "rows, then columns (Oliveira)")
+#define INVERSELY WARPED("inverse", INVERSE, "for each texel of the result, what its ray meets (Parilov)")
 
-/* ---- The views: orthographic, turned about y, as lesson 15's ---- */
+#define BEYOND_EDGES \
+    WARPED("lost", ORDER_LINEAR, "what is seen beyond the polygon's edges is lost"), \
+    WARPED("auxiliary", AUXILIARY, "it lands on polygons that stand at the edges (Oliveira)"), \
+    WARPED("resized", RESIZED, "it lands on the polygon's plane, which is enlarged (Parilov)")
+#define ALL NOT_WARPED, BY_DEPTH, BY_ORDER, IN_TWO_PASSES, INVERSELY
 
-#define ORTHOGRAPHIC(x, y, z, picture_height) \
-    {.eye = {x, y, z}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}
+/* ---- The views: lesson 15's, orthographic and turned about y ... ---- */
 
-#define VIEW_30 {"30", ORTHOGRAPHIC(2, 0, 3.4641016151377544, 0.64)}
-#define VIEW_60 {"60", ORTHOGRAPHIC(3.4641016151377544, 0, 2, 0.37)}
-#define VIEW_80 {"80", ORTHOGRAPHIC(3.9392310120488321, 0, 0.69459271066772132, 0.13)}
-#define VIEW_87 \
-    {"87", {.eye = {3.9945181390182953, 0.0625, 0.20934382497177531}, .target = {0, 0.0625, 0}, .up = {0, 1, 0}, \
-            .height = 0.039, .near = 0.1, .far = 20}} /* of bricks: of the mortar in the middle nothing is seen */
+#define ORTHOGRAPHIC(x, z, picture_height) \
+    {.eye = {x, 0.02, z}, .target = {0, 0.02, 0}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}
+#define ANGLES \
+    {"30", ORTHOGRAPHIC(2, 3.4641016151377544, 0.64)}, {"60", ORTHOGRAPHIC(3.4641016151377544, 2, 0.37)}, \
+    {"80", ORTHOGRAPHIC(3.9392310120488321, 0.69459271066772133, 0.13)}, \
+    {"87", ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
+
+/* ... and all around: at an angle from the normal (by its sine and cosine) and in a direction (x, y) of the plane, the
+ * eye 1.5 widths away and infinitely far. The whole polygon is in view. ---- */
+
+#define NEAR_AND_FAR(id, s, c, x, y, up_y, up_z, unpictured) \
+    {id, {.eye = {1.5 * (s) * (x), 1.5 * (s) * (y), 1.5 * (c)}, .up = {0, up_y, up_z}, .fov_y_degrees = 58, \
+          .near = 0.1, .far = 10}, .extra = unpictured}, \
+    {id "-far", {.eye = {4 * (s) * (x), 4 * (s) * (y), 4 * (c)}, .up = {0, up_y, up_z}, .height = 1.25, \
+                 .near = 0.1, .far = 20}, .extra = unpictured}
+#define HALF_ROOT 0.70710678118654752
+#define EIGHT(id, s, c) \
+    NEAR_AND_FAR(id "-000", s, c, 1, 0, 0, 1, true), NEAR_AND_FAR(id "-045", s, c, HALF_ROOT, HALF_ROOT, 0, 1, true), \
+    NEAR_AND_FAR(id "-090", s, c, 0, 1, 0, 1, true), NEAR_AND_FAR(id "-135", s, c, -HALF_ROOT, HALF_ROOT, 0, 1, true), \
+    NEAR_AND_FAR(id "-180", s, c, -1, 0, 0, 1, true), NEAR_AND_FAR(id "-225", s, c, -HALF_ROOT, -HALF_ROOT, 0, 1, true), \
+    NEAR_AND_FAR(id "-270", s, c, 0, -1, 0, 1, true), NEAR_AND_FAR(id "-315", s, c, HALF_ROOT, -HALF_ROOT, 0, 1, true)
+#define AROUND \
+    NEAR_AND_FAR("0", 0, 1, 0, 0, 1, 0, true), EIGHT("30", 0.5, 0.86602540378443865), \
+    EIGHT("60", 0.86602540378443865, 0.5), EIGHT("75", 0.96592582628906829, 0.25881904510252076)
+
+#define CORNER NEAR_AND_FAR("60-045", 0.86602540378443865, 0.5, HALF_ROOT, HALF_ROOT, 0, 1, false)
+#define ABOVE NEAR_AND_FAR("0", 0, 1, 0, 0, 1, 0, false)
 
 /* ---- The scenes ---- */
 
-#define WALL .unload = scene_unload, .draw = scene_draw, .move = scene_move, .truth = scene_truth, \
-    .texels = scene_texels, .measure = scene_measure, .background = {0.02, 0.02, 0.02}
+#define WALL(base, base_says) \
+    .unload = scene_unload, .draw = scene_draw, .move = scene_move, .truth = scene_truth, .texels = scene_texels, \
+    .measure = scene_measure, .background = {0.02, 0.02, 0.02}, .samples = 8, \
+    .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
+              {"base", base, "height of the polygon, " base_says}, \
+              {"light_azimuth", 120, "degrees from +u toward +v, far away"}, \
+              {"light_tangent", 0.7, "its height over the plane, to its distance in the plane"}, \
+              {"ambient", 0.3, "the share of light from everywhere"}}
+#define TOP WALL(1, "unless base_of_file says otherwise")
+#define BRICK .colour = "brick-256-colour.png", .height = "brick-256-height.png"
+#define TERRAIN .colour = "terrain-relief.png", .height = "terrain-relief.png"
 /* clang-format on */
 
 static const Lesson lesson = {
@@ -41,9 +78,19 @@ static const Lesson lesson = {
     .title = "relief textures by pre-warp: texels are moved first, then the texture is mapped as any other",
     .width = 320,
     .height = 240,
-    .scenes = {{"brick", "a brick wall, its bricks' faces in the polygon (base 1)",
-                .techniques = {NOT_WARPED, BY_ORDER, IN_TWO_PASSES, INVERSELY},
-                .views = {VIEW_30, VIEW_60, VIEW_80, VIEW_87}, .colour = "brick-256-colour.png",
-                .height = "brick-256-height.png", .load = scene_load, .samples = 8, WALL}}};
+    .scenes = {
+        {"brick", "a brick wall, its bricks' faces in the polygon (base 1)", .techniques = {ALL},
+         .views = {ANGLES, AROUND}, BRICK, .load = scene_load, TOP},
+        {"terrain", "a real mountain, Levi in Finland, one and a half times as steep as it is",
+         .techniques = {ALL}, .views = {ANGLES, AROUND}, TERRAIN, .load = scene_load, TOP},
+        {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground", .techniques = {ALL},
+         .views = {ANGLES}, .colour = "uv-grid.png", .height = "pins-height.png", .load = scene_load, TOP},
+        {"overflow", "the wall below its polygon, seen beyond two edges at most (base 1)",
+         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER, ABOVE}, BRICK,
+         .load = scene_load_overflow, TOP},
+        {"bottom", "the wall standing on its polygon, seen beyond up to four edges (base 0)",
+         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER, ABOVE}, BRICK, .load = scene_load_bottom,
+         WALL(0, "whatever base_of_file says")},
+    }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }

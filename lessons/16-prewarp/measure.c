@@ -2,6 +2,7 @@
 #include "fail.h"
 #include "hits.h"
 #include "judge.h"
+#include "overflow.h"
 #include "pace.h"
 #include "two_pass.h"
 
@@ -30,16 +31,42 @@ static double first_pass_loss(const Judge *judge, const Source *source, Eye eye,
     return loss;
 }
 
+/* Where texels are kept: on the polygon's plane, and on those that stand at its edges. */
+static double lost_texels(const Judge *judge, const Prewarp *prewarp, Way way, Eye eye) {
+    const Source *source = &prewarp->source;
+    PrewarpFactors factors = prewarp_factors(&source->plane, eye);
+    Canvas canvases[1 + EDGES] = {{source->plane, judge->low, judge->high}};
+    int count = 1;
+    for (int edge = 0; way == AUXILIARY && edge < EDGES; edge++) {
+        if (!overflow_can(&factors, overflow_displacements(source), edge)) continue;
+        Auxiliary auxiliary = auxiliary_create(source, edge, false);
+        canvases[count++] = (Canvas){auxiliary.plane, auxiliary.destination.low, auxiliary.destination.high};
+        auxiliary_destroy(&auxiliary);
+    }
+    return judge_lost_texel_percent(judge, eye, canvases, count);
+}
+
 static Figure judge_way(const Judge *judge, const Prewarp *prewarp, Way way, Eye eye,
                         Destination *destination) {
-    const Source *source = &prewarp->source;
     Figure figure = {0};
-    if (way == TWO_PASS) figure.first_pass_loss = first_pass_loss(judge, source, eye, destination);
+    if (way == TWO_PASS) figure.first_pass_loss = first_pass_loss(judge, &prewarp->source, eye, destination);
     scene_warp(prewarp, way, eye, destination);
     figure.holes = judge_hole_percent(judge, destination);
     figure.violations = judge_order_violation_percent(judge, destination);
-    Canvas polygon = {source->plane, destination->low, destination->high};
-    figure.lost = judge_lost_texel_percent(judge, eye, &polygon, 1);
+    figure.lost = lost_texels(judge, prewarp, way, eye);
+    return figure;
+}
+
+/* The same on a destination that has a size of its own. */
+static Figure judge_resized(const Prewarp *prewarp, Eye eye) {
+    const Source *source = &prewarp->source;
+    PrewarpFactors factors = prewarp_factors(&source->plane, eye);
+    if (!factors.possible || factors.behind) return (Figure){0};
+    Destination destination = overflow_destination(source, &factors, RESIZED_LIMIT, true);
+    Judge judge = judge_create(source, eye, &destination);
+    Figure figure = judge_way(&judge, prewarp, RESIZED, eye, &destination);
+    judge_destroy(&judge);
+    destination_destroy(&destination);
     return figure;
 }
 
@@ -48,9 +75,13 @@ static void judge_all(const Prewarp *prewarp, const Scene *scene, const View *vi
     Eye eye = scene_eye(&view->camera);
     Destination destination = destination_create(source->width, source->height, v2(0, 0), v2(1, 1), true);
     Judge judge = judge_create(source, eye, &destination);
-    for (int i = 0; i < technique_count(scene); i++)
-        if (scene->techniques[i].variant != PLAIN)
-            figures[i] = judge_way(&judge, prewarp, scene->techniques[i].variant, eye, &destination);
+    for (int i = 0; i < technique_count(scene); i++) {
+        Way way = scene->techniques[i].variant;
+        if (way == RESIZED)
+            figures[i] = judge_resized(prewarp, eye);
+        else if (way != PLAIN)
+            figures[i] = judge_way(&judge, prewarp, way, eye, &destination);
+    }
     judge_destroy(&judge);
     destination_destroy(&destination);
 }
@@ -94,14 +125,15 @@ static void add_random_pace(const Shots *shots, Table *table) {
 }
 
 void scene_measure(const Shots *shots, Table *table) {
-    bool warped = shots->frame->technique->variant != PLAIN;
+    Way way = shots->frame->technique->variant;
+    bool warped = way != PLAIN, in_place = warped && way != AUXILIARY && way != RESIZED;
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];
         HitErrors errors = hit_errors(&shot->picture.lookup, shot->centres, scene_texels(shots->frame->data));
         table_add(table, shots, shot->view, "wrong_hit_percent", errors.wrong_percent, "%");
         table_add(table, shots, shot->view, "hit_error_texels_p99", errors.p99, "texels");
         if (warped) add_figures(shots, i, table);
-        if (warped) add_pace(shots, i, table);
+        if (in_place) add_pace(shots, i, table);
     }
-    if (warped) add_random_pace(shots, table);
+    if (in_place) add_random_pace(shots, table);
 }

@@ -4,6 +4,7 @@
 #include "forward.h"
 #include "inverse.h"
 #include "normals.h"
+#include "overflow.h"
 #include "two_pass.h"
 
 #include <stdlib.h>
@@ -79,15 +80,16 @@ static Prewarp *finish(Prewarp *prewarp) {
 
 void *scene_load(const Options *options) { return finish(load(options)); }
 
-void *scene_load_bottom(const Options *options) {
-    Prewarp *prewarp = load(options);
-    prewarp->wall.relief.base = 0.0;
-    return finish(prewarp);
-}
-
 void *scene_load_overflow(const Options *options) {
     Prewarp *prewarp = load(options);
     prewarp->wall.relief.extent = RELIEF_SLAB;
+    return finish(prewarp);
+}
+
+void *scene_load_bottom(const Options *options) {
+    Prewarp *prewarp = load(options);
+    prewarp->wall.relief.extent = RELIEF_SLAB;
+    prewarp->wall.relief.base = 0.0;
     return finish(prewarp);
 }
 
@@ -122,6 +124,8 @@ void scene_warp(const Prewarp *prewarp, Way way, Eye eye, Destination *destinati
         [ORDER_NONE] = {VISIBILITY_OCCLUSION_ORDER, FILLING_NONE},
         [ORDER_LINEAR] = {VISIBILITY_OCCLUSION_ORDER, FILLING_LINEAR},
         [ORDER_SPLAT] = {VISIBILITY_OCCLUSION_ORDER, FILLING_SPLAT},
+        [AUXILIARY] = {VISIBILITY_OCCLUSION_ORDER, FILLING_LINEAR},
+        [RESIZED] = {VISIBILITY_OCCLUSION_ORDER, FILLING_LINEAR},
     };
     const Source *source = &prewarp->source;
     PrewarpFactors factors = prewarp_factors(&source->plane, eye);
@@ -142,17 +146,41 @@ static Destination *polygon_destination(Prewarp *prewarp, bool lookup) {
     return destination;
 }
 
+static void add_layer(Prewarp *prewarp, const Plane *plane, const Destination *destination) {
+    Layer *layer = &prewarp->layers[prewarp->layer_count++];
+    layer_write(layer, destination);
+    layer_lay(layer, plane, destination->low, destination->high);
+}
+
+static void add_auxiliaries(Prewarp *prewarp, const PrewarpFactors *factors, Eye eye, bool lookup) {
+    const Source *source = &prewarp->source;
+    Displacements displacements = overflow_displacements(source);
+    for (int edge = 0; edge < EDGES; edge++) {
+        if (!overflow_can(factors, displacements, edge)) continue;
+        Auxiliary auxiliary = auxiliary_create(source, edge, lookup);
+        auxiliary_warp(source, eye, &auxiliary);
+        add_layer(prewarp, &auxiliary.plane, &auxiliary.destination);
+        auxiliary_destroy(&auxiliary);
+    }
+}
+
 void scene_prepare(const Frame *frame) {
     Prewarp *prewarp = frame->data;
     const Source *source = &prewarp->source;
+    Way way = frame->technique->variant;
     Eye eye = scene_eye(&frame->camera);
     PrewarpFactors factors = prewarp_factors(&source->plane, eye);
-    prewarp->layer_count = factors.possible && !factors.behind;
-    if (!prewarp->layer_count) return;
-    Destination *destination = polygon_destination(prewarp, frame->looking);
-    scene_warp(prewarp, frame->technique->variant, eye, destination);
-    layer_write(&prewarp->layers[0], destination);
-    layer_lay(&prewarp->layers[0], &source->plane, destination->low, destination->high);
+    prewarp->layer_count = 0;
+    if (!factors.possible || factors.behind) return;
+    Destination *destination = polygon_destination(prewarp, frame->looking), resized;
+    if (way == RESIZED) {
+        resized = overflow_destination(source, &factors, RESIZED_LIMIT, frame->looking);
+        destination = &resized;
+    }
+    scene_warp(prewarp, way, eye, destination);
+    add_layer(prewarp, &source->plane, destination);
+    if (way == RESIZED) destination_destroy(&resized);
+    if (way == AUXILIARY) add_auxiliaries(prewarp, &factors, eye, frame->looking);
 }
 
 /* ---- Drawing ---- */
@@ -197,5 +225,5 @@ Sample scene_truth(const void *data, Ray ray) {
 
 Vec2 scene_texels(const void *data) {
     const Prewarp *prewarp = data;
-    return v2(prewarp->source.width, prewarp->source.height);
+    return v2(prewarp->wall.height_image.width, prewarp->wall.height_image.height);
 }

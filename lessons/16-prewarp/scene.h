@@ -17,9 +17,15 @@ typedef enum {
     ORDER_SPLAT,
     TWO_PASS,
     INVERSE,
+    AUXILIARY, /* as ORDER_LINEAR, and polygons at the edges for what is seen beyond them */
+    RESIZED,   /* as ORDER_LINEAR, on a polygon as large as what is seen */
 } Way;
 
 enum { LAYERS_MAX = 5 }; /* the polygon, and one at each of its edges */
+
+/* Widths beyond each edge of the polygon that RESIZED goes: a relief that is seen along its plane has no end.
+ */
+#define RESIZED_LIMIT 2.0
 
 typedef struct {
     Wall wall;
@@ -34,16 +40,16 @@ typedef struct {
 } Prewarp;
 
 /* Scene callbacks, see lesson.h. The polygon is at the relief's top (base 1, or what the file says), or with
- * scene_load_bottom at its bottom (base 0). The relief ends where the polygon does, and is seen through the
- * polygon alone; with scene_load_overflow it is seen wherever it is. */
+ * scene_load_bottom at its bottom (base 0). The relief ends where the polygon does. For scene_load it is seen
+ * through the polygon alone, for the others wherever it is. */
 void *scene_load(const Options *options);
-void *scene_load_bottom(const Options *options);
 void *scene_load_overflow(const Options *options);
+void *scene_load_bottom(const Options *options);
 void scene_unload(void *data);
 void scene_draw(const Frame *frame);
 void scene_move(void *data, double seconds); /* the light goes around */
 Sample scene_truth(const void *data, Ray ray);
-Vec2 scene_texels(const void *data); /* the source's size */
+Vec2 scene_texels(const void *data); /* the height map's size */
 void scene_measure(const Shots *shots, Table *table);
 
 /* Technique callback: warps the source for the frame's camera, and writes the layers. An eye in the polygon's
@@ -60,7 +66,8 @@ Vec3 scene_light(const Prewarp *prewarp);
  * destroys it. */
 Image scene_resampled(const Image *image, int width, int height);
 
-/* Warps the source onto the polygon; the destination becomes empty where nothing can be. Not for PLAIN. */
+/* Warps the source onto the polygon, or for a destination that is larger onto its plane; it becomes empty
+ * where nothing can be warped. Not for PLAIN. */
 void scene_warp(const Prewarp *prewarp, Way way, Eye eye, Destination *destination);
 
 #endif
