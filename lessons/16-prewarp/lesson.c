@@ -40,23 +40,25 @@
 /* ... and all around: at an angle from the normal (by its sine and cosine) and in a direction (x, y) of the plane, the
  * eye 1.5 widths away and infinitely far. The whole polygon is in view. ---- */
 
-#define NEAR_AND_FAR(id, s, c, x, y, up_y, up_z, unpictured) \
-    {id, {.eye = {1.5 * (s) * (x), 1.5 * (s) * (y), 1.5 * (c)}, .up = {0, up_y, up_z}, .fov_y_degrees = 58, \
-          .near = 0.1, .far = 10}, .extra = unpictured}, \
-    {id "-far", {.eye = {4 * (s) * (x), 4 * (s) * (y), 4 * (c)}, .up = {0, up_y, up_z}, .height = 1.25, \
-                 .near = 0.1, .far = 20}, .extra = unpictured}
-#define HALF_ROOT 0.70710678118654752
-#define EIGHT(id, s, c) \
-    NEAR_AND_FAR(id "-000", s, c, 1, 0, 0, 1, true), NEAR_AND_FAR(id "-045", s, c, HALF_ROOT, HALF_ROOT, 0, 1, true), \
-    NEAR_AND_FAR(id "-090", s, c, 0, 1, 0, 1, true), NEAR_AND_FAR(id "-135", s, c, -HALF_ROOT, HALF_ROOT, 0, 1, true), \
-    NEAR_AND_FAR(id "-180", s, c, -1, 0, 0, 1, true), NEAR_AND_FAR(id "-225", s, c, -HALF_ROOT, -HALF_ROOT, 0, 1, true), \
-    NEAR_AND_FAR(id "-270", s, c, 0, -1, 0, 1, true), NEAR_AND_FAR(id "-315", s, c, HALF_ROOT, -HALF_ROOT, 0, 1, true)
+#define NEAR(id, s, c, x, y, degrees) \
+    id, {.eye = {1.5 * (s) * (x), 1.5 * (s) * (y), 1.5 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
+         .fov_y_degrees = degrees, .near = 0.1, .far = 10}
+#define FAR(id, s, c, x, y, picture_height) \
+    id "-far", {.eye = {4 * (s) * (x), 4 * (s) * (y), 4 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
+                .height = picture_height, .near = 0.1, .far = 20}
+#define BOTH(id, s, c, degrees, height, x, y) {NEAR(id, s, c, x, y, degrees), true}, {FAR(id, s, c, x, y, height), true}
+#define R2 0.70710678118654752
+#define EIGHT(id, ...) \
+    BOTH(id "-000", __VA_ARGS__, 1, 0), BOTH(id "-045", __VA_ARGS__, R2, R2), BOTH(id "-090", __VA_ARGS__, 0, 1), \
+    BOTH(id "-135", __VA_ARGS__, -R2, R2), BOTH(id "-180", __VA_ARGS__, -1, 0), BOTH(id "-225", __VA_ARGS__, -R2, -R2), \
+    BOTH(id "-270", __VA_ARGS__, 0, -1), BOTH(id "-315", __VA_ARGS__, R2, -R2)
 #define AROUND \
-    NEAR_AND_FAR("0", 0, 1, 0, 0, 1, 0, true), EIGHT("30", 0.5, 0.86602540378443865), \
-    EIGHT("60", 0.86602540378443865, 0.5), EIGHT("75", 0.96592582628906829, 0.25881904510252076)
+    BOTH("0", 0, 1, 40, 1.1, 0, 0), EIGHT("30", 0.5, 0.86602540378443865, 58, 1.3), \
+    EIGHT("60", 0.86602540378443865, 0.5, 44, 1.1), EIGHT("75", 0.96592582628906829, 0.25881904510252076, 44, 1.1)
 
-#define CORNER NEAR_AND_FAR("60-045", 0.86602540378443865, 0.5, HALF_ROOT, HALF_ROOT, 0, 1, false)
-#define ABOVE NEAR_AND_FAR("0", 0, 1, 0, 0, 1, 0, false)
+#define CORNER_AND_ABOVE \
+    {NEAR("60-045", 0.86602540378443865, 0.5, R2, R2, 44)}, {FAR("60-045", 0.86602540378443865, 0.5, R2, R2, 1.1)}, \
+    {NEAR("0", 0, 1, 0, 0, 40)}
 
 /* ---- The scenes ---- */
 
@@ -86,11 +88,11 @@ static const Lesson lesson = {
         {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground", .techniques = {ALL},
          .views = {ANGLES}, .colour = "uv-grid.png", .height = "pins-height.png", .load = scene_load, TOP},
         {"overflow", "the wall below its polygon, seen beyond two edges at most (base 1)",
-         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER, ABOVE}, BRICK,
+         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER_AND_ABOVE}, BRICK,
          .load = scene_load_overflow, TOP},
         {"bottom", "the wall standing on its polygon, seen beyond up to four edges (base 0)",
-         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER, ABOVE}, BRICK, .load = scene_load_bottom,
-         WALL(0, "whatever base_of_file says")},
+         .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER_AND_ABOVE}, BRICK,
+         .load = scene_load_bottom, WALL(0, "whatever base_of_file says")},
     }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }
