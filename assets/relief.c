@@ -22,7 +22,7 @@ static const char usage[] =
     "    --like RELIEF  all of this as RELIEF says it\n"
     "    --bits N       of a .png's numbers: 8 or 16 (16)\n"
     "relief split RELIEF COLOUR HEIGHT   makes the two images again, to edit them\n"
-    "relief show RELIEF                  says what it holds\n";
+    "relief show RELIEF...               says what it holds, or they hold\n";
 
 /* ---- Reading and writing ---- */
 
@@ -102,6 +102,7 @@ static void print_number(const char *name, double number) {
 static void show(const char *path) {
     Image height = relief_load(path, IMAGE_HEIGHT);
     const Basis *basis = &height.basis;
+    printf("%s\n", path);
     printf("texels   %d x %d, %d bits\n", height.width, height.height, height.bits);
     print_number("scale", height.scale);
     print_number("base", height.base);
@@ -163,25 +164,18 @@ static Wishes read_options(int count, char **arguments) {
 }
 
 int main(int count, char **arguments) {
-    Wishes wishes = read_options(count, arguments);
-    static const struct {
-        const char *name;
-        int paths;
-    } commands[] = {{"combine", 3}, {"split", 3}, {"show", 1}};
-    enum { COMBINE, SPLIT, COMMANDS = sizeof commands / sizeof *commands };
-    char **paths = arguments + optind + 1; /* getopt_long has put them last */
-    int given = count - optind - 1, command = 0;
-    if (given < 0) fail_usage("usage: relief combine|split|show ...; --help says more");
-    while (command < COMMANDS && strcmp(paths[-1], commands[command].name)) command++;
-    if (command == COMMANDS) fail_usage("%s: neither combine, split nor show", paths[-1]);
-    if (given != commands[command].paths)
-        fail_usage("%s takes %d file%s, not %d", paths[-1], commands[command].paths,
-                   commands[command].paths == 1 ? "" : "s", given);
-    if (command == COMBINE)
-        combine(paths, &wishes);
-    else if (command == SPLIT)
-        split(paths);
-    else
-        show(paths[0]);
+    Wishes wishes = read_options(count, arguments); /* what is no option comes last now */
+    const char *command = arguments[optind];
+    if (!command) fail_usage("usage: relief combine|split|show ...; --help says more");
+    char **paths = arguments + optind + 1;
+    int given = count - optind - 1;
+    bool combines = !strcmp(command, "combine"), splits = !strcmp(command, "split");
+    bool shows = !strcmp(command, "show");
+    if (!combines && !splits && !shows) fail_usage("%s: neither combine, split nor show", command);
+    if (shows && given == 0) fail_usage("show: of what?");
+    if (!shows && given != 3) fail_usage("%s takes 3 files, not %d", command, given);
+    if (combines) combine(paths, &wishes);
+    if (splits) split(paths);
+    for (int i = 0; shows && i < given; i++) show(paths[i]);
     return 0;
 }

@@ -225,11 +225,29 @@ topography("$mountain/topography.png", 300);
 refuses('a small topography', 1, 'terrain', "$mountain/topography.png: .*smaller", 'build/terrain', $mountain);
 ok !-e "$mountain/terrain-relief.png", 'and none of them left a picture';
 
+# ---- object ----
+
+my @faces = qw(left right bottom top back front);
+my @objects = map { my $object = $_; map { "$object-$_.png" } @faces } qw(solids bunny);
+my $objects = "$tmp/objects";
+make_path($objects);
+copy('build/assets/bunny.obj', "$objects/bunny.obj") or die "bunny.obj: $!";
+is((run('build/object', $objects))[0], 0, 'object runs');
+same_bytes($objects, @objects);
+# Each looks out along an axis of its own, and says that what it does not see is no surface.
+my $shown = shown(map { "$objects/$_" } @objects);
+my $count = () = $shown =~ /^texels   256 x 256, 16 bits\nscale    .*\nbase     1\norigin   .*\na .*\nb .*\nf .*
+depth    .*, shown 1 times as deep\nhollow   where h = 0$/gm;
+is $count, 12, 'twelve relief textures, hollow, nothing exaggerated';
+my @f = $shown =~ /^f        (.*)$/gm;
+is_deeply [map { join ' ', map { $_ + 0 } split } @f], [('-1 0 0', '1 0 0', '0 -1 0', '0 1 0', '0 0 -1', '0 0 1') x 2],
+    'their directions: left, right, bottom, top, back, front';
+
 # ---- relief ----
 
 sub shown {
     my ($status, $out) = run('build/relief', 'show', @_);
-    is $status, 0, "$_[0] is a relief texture";
+    is $status, 0, "@_: relief textures";
     return $out;
 }
 
@@ -244,7 +262,8 @@ sub relief_refuses {
     refuses($what, $status, 'relief', $line, 'build/relief', @arguments);
 }
 
-is shown('build/assets/brick-relief.png'), <<'END', 'the wall: 720 mm wide, 72 mm deep';
+is shown(map { "build/assets/$_" } 'brick-relief.png', 'terrain-relief.png', 'stereo-relief.exr'), <<'END',
+build/assets/brick-relief.png
 texels   256 x 256, 16 bits
 scale    0.1
 base     1
@@ -253,8 +272,7 @@ a        720 0 0 mm
 b        0 720 0 mm
 f        0 0 1
 depth    72 mm from h = 0 to h = 1, shown 1 times as deep
-END
-is shown('build/assets/terrain-relief.png'), <<'END', 'the mountain: 5120 m wide, its summit at 530.6 m';
+build/assets/terrain-relief.png
 texels   256 x 256, 16 bits
 scale    0.10197566
 base     1
@@ -263,8 +281,7 @@ a        5120 0 0 m
 b        0 5120 0 m
 f        0 0 1.5
 depth    348.0769196 m from h = 0 to h = 1, shown 1.5 times as deep
-END
-is shown('build/assets/stereo-relief.exr'), <<'END', 'the motorcycle: 2889 mm deep';
+build/assets/stereo-relief.exr
 texels   370 x 250, 32 bits
 scale    0.1150286462
 base     1
@@ -274,6 +291,7 @@ b        0 1060.600737 0 mm
 f        0 0 0.0625
 depth    2888.947377 mm from h = 0 to h = 1, shown 0.0625 times as deep
 END
+    'a wall 72 mm deep, a mountain 530.6 m high, a motorcycle 2889 mm deep';
 
 my ($c, $h, $r) = map { "$tmp/$_" } qw(c.png h.png r.png);
 my @wall = map { "build/assets/brick-256-$_.png" } qw(colour height);
@@ -282,9 +300,9 @@ same($h, $wall[1], 'the height is what it was made of');
 is((run('build/relief', 'combine', $c, $h, $r, '--like', 'build/assets/brick-relief.png'))[0], 0, 'and combines');
 same($r, 'build/assets/brick-relief.png', 'the same bytes again');
 is((run('build/relief', 'combine', qw(--scale=-0.25 --base 0.5 --hollow --bits=8), @wall, $r))[0], 0, 'with options');
-is shown($r), "texels   256 x 256, 8 bits\nscale    -0.25\nbase     0.5\nhollow   where h = 0\n", 'which it keeps';
+is shown($r), "$r\ntexels   256 x 256, 8 bits\nscale    -0.25\nbase     0.5\nhollow   where h = 0\n", 'which it keeps';
 is((run('build/relief', 'combine', ('build/assets/checker.png') x 2, $r))[0], 0, 'from what says nothing');
-is shown($r), "texels   256 x 256, 16 bits\nscale    0.1\nbase     1\n", 'scale 0.1 and base 1';
+is shown($r), "$r\ntexels   256 x 256, 16 bits\nscale    0.1\nbase     1\n", 'scale 0.1 and base 1';
 my @clean = ('env', map({ ('-u', $_) } qw(MAKEFLAGS MAKELEVEL MFLAGS)), 'make', '-s', 'relief');
 is((run(@clean, "COLOUR=$wall[0]", "HEIGHT=$wall[1]", "OUT=$r", 'WIDTH=720', 'UNIT=mm'))[0], 0, 'make relief');
 same($r, 'build/assets/brick-relief.png', 'does the same');
@@ -295,7 +313,8 @@ unlink $r;
 relief_refuses('nothing to do', 2, 'usage');
 relief_refuses('an unknown command', 2, 'fold', 'fold', $r);
 relief_refuses('files too few', 2, 'takes 3 files, not 2', 'combine', $c, $h);
-relief_refuses('files too many', 2, 'takes 1 files?, not 2', 'show', $c, $h);
+relief_refuses('files too many', 2, 'takes 3 files, not 4', 'split', $r, $c, $h, $r);
+relief_refuses('nothing to show', 2, 'show', 'show');
 relief_refuses("an unknown option", 2, '--deep', 'combine', $c, $h, $r, '--deep');
 relief_refuses("no value", 2, '--scale', 'combine', $c, $h, $r, '--scale');
 relief_refuses("--$_->[0] $_->[1]", 2, "--$_->[0]", 'combine', $c, $h, $r, "--$_->[0]=$_->[1]")
