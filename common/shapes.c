@@ -167,7 +167,8 @@ Sample truth_relief(const Relief *relief, Ray ray) {
     if (relief->extent != RELIEF_REPEATED) {
         clip(path.x, path.dx, -0.5, image->width - 0.5, &from, &to);
         clip(path.y, path.dy, -0.5, image->height - 0.5, &from, &to);
-        if (from > to || path_above(image, &path, from) < 0.0) return (Sample){0};
+        /* Where it enters at height 1, and the surface is as high, rounding must not put it below. */
+        if (from > to || path_above(image, &path, from) < -1e-9) return (Sample){0};
     }
     double t = walk(image, &path, from, to);
     if (t < 0.0) return (Sample){0};

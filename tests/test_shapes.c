@@ -229,6 +229,22 @@ static void test_relief_special(void **state) {
     image_destroy(&height);
 }
 
+/* A surface as high as the layer: rays enter at it exactly, and rounding decides nothing. */
+static void test_relief_at_the_top(void **state) {
+    (void)state;
+    Image height = image_create(3, 3, 1);
+    for (int i = 0; i < 9; i++) height.pixels[i] = 1;
+    for (int i = 0; i < 1000; i++) {
+        Relief relief = {&height, 1, 1, random_in(0.02, 0.3), 1, i % 2 ? RELIEF_CUT : RELIEF_SLAB};
+        Vec3 window = v3(random_in(-0.5, 0.5), random_in(-0.5, 0.5), 0);
+        Vec3 eye = v3(random_in(-2, 2), random_in(-2, 2), random_in(0.1, 2));
+        Sample sample = truth_relief(&relief, ray_between(eye, window));
+        assert_true(sample.hit);
+        near(sample.u, window.x + 0.5, 1e-9);
+    }
+    image_destroy(&height);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_plane),
@@ -237,6 +253,7 @@ int main(void) {
         cmocka_unit_test(test_relief_extents),
         cmocka_unit_test(test_relief_normal),
         cmocka_unit_test(test_relief_special),
+        cmocka_unit_test(test_relief_at_the_top),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("shapes", tests, NULL, NULL);
