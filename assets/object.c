@@ -7,8 +7,8 @@
  * first; where it meets nothing, the height is 0, which is no surface.
  *
  * A relief is as deep as the box: half of that would do for an object without hollows, but from the top of
- * the bunny, past its neck, one sees its feet. The 65,535 heights of 16 bits then lie a 256th of a texel
- * apart. */
+ * the bunny, past its neck, one sees its feet. A step of 16 bits is then 1/200 of a texel or
+ * less. */
 #include "fail.h"
 #include "image.h"
 #include "mesh_rays.h"
