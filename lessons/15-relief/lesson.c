@@ -19,8 +19,8 @@
 #define RELIEF \
     {MARCHED("relief", "linear steps, then 6 halvings (Policarpo, Oliveira, Comba 2005)"), \
      STEPS(8, 32, 128, 512, 1024, 4096)}
-#define MAXIMUM {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)")}
-#define CONE {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), STEPS(8, 32, 128, 512)}
+#define MAXIMUM {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)"), .variant = PYRAMID}
+#define CONE {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), STEPS(8, 32, 128), .variant = CONES}
 #define MARCHES PARALLAX, STEEP, OCCLUSION, RELIEF, CONE, MAXIMUM
 
 /* ---- The views: orthographic, turned about y by an angle that so every ray has; the polygon fills them, and
@@ -63,14 +63,17 @@ static const Lesson lesson = {
          .techniques = {{TECHNIQUE("parallax", "lit-parallax", "one height, lit, no shadow")},
                         {TECHNIQUE("relief", "lit-relief", "lit, no shadow"), STEPS(32)},
                         {TECHNIQUE("relief-shadow", "lit-relief", "a second ray, to the light"),
-                         STEPS(32, 128), .variant = SHADOWED}},
+                         STEPS(32, 128), .variant = SHADOWED},
+                        {TECHNIQUE("maximum-shadow", "lit-maximum", "the same, both rays exact"),
+                         .variant = SHADOWED}},
          .views = {VIEW_30(0.64), VIEW_60(0.37), NEAR(0.3, -0.5, 0.6)}, .colour = "brick-256-colour.png",
          .height = "brick-256-height.png", .load = relief_load_lit, .move = relief_move, SCENE(18)},
         {"silhouette", "the wall's relief ends with the polygon",
          .techniques = {{TECHNIQUE("parallax", "parallax", "one height; the polygon's straight edges")},
                         {TECHNIQUE("relief", "relief", "the polygon's straight edges"), STEPS(32)},
                         {TECHNIQUE("relief-cut", "cut-relief", "rays that leave are discarded"),
-                         STEPS(32, 128)}},
+                         STEPS(32, 128)},
+                        {TECHNIQUE("maximum-cut", "cut-maximum", "the same, by the exact search")}},
          .views = {VIEW_30(1.1), VIEW_60(1.1), NEAR(0.7, -0.8, 0.5)}, .colour = "brick-256-colour.png",
          .height = "brick-256-height.png", .load = relief_load_cut, SCENE(18)},
     }};

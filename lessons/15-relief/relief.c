@@ -7,7 +7,6 @@
 #include "pyramid.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 static const double AMBIENT = 0.2; /* the light that shadows have too */
@@ -23,19 +22,23 @@ static double milliseconds(void) {
 Maps maps_create(const Image *height) {
     double start = milliseconds();
     Image corners = corners_build(height);
-    double with_corners = milliseconds();
     Pyramid pyramid = pyramid_build(height);
-    double with_pyramid = milliseconds();
-    Image cones = cone_build(height);
-    Maps maps = {.corners = texture_create(&corners, 1, TEXTURE_FLOAT, TEXTURE_NEAREST),
-                 .pyramid = texture_create(pyramid.levels, pyramid.count, TEXTURE_FLOAT, TEXTURE_MIP_NEAREST),
-                 .cones = texture_create(&cones, 1, TEXTURE_FLOAT, TEXTURE_NEAREST),
-                 .pyramid_ms = with_pyramid - start,
-                 .cones_ms = (with_corners - start) + (milliseconds() - with_pyramid)};
+    Maps maps = {.pyramid_ms = milliseconds() - start,
+                 .corners = texture_create(&corners, 1, TEXTURE_FLOAT, TEXTURE_NEAREST),
+                 .pyramid =
+                     texture_create(pyramid.levels, pyramid.count, TEXTURE_FLOAT, TEXTURE_MIP_NEAREST)};
     image_destroy(&corners);
     pyramid_destroy(&pyramid);
-    image_destroy(&cones);
     return maps;
+}
+
+void maps_need_cones(Maps *maps, const Image *height) {
+    if (maps->cones.id) return;
+    double start = milliseconds();
+    Image cones = cone_build(height);
+    maps->cones_ms = milliseconds() - start;
+    maps->cones = texture_create(&cones, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
+    image_destroy(&cones);
 }
 
 void maps_bind(const Maps *maps, Program *program) {
@@ -47,7 +50,7 @@ void maps_bind(const Maps *maps, Program *program) {
 void maps_destroy(Maps *maps) {
     texture_destroy(&maps->corners);
     texture_destroy(&maps->pyramid);
-    texture_destroy(&maps->cones);
+    if (maps->cones.id) texture_destroy(&maps->cones);
 }
 
 /* ---- Loading ---- */
@@ -91,7 +94,8 @@ void relief_unload(void *data) {
 /* ---- Drawing ---- */
 
 void relief_draw(const Frame *frame) {
-    const Field *field = frame->data;
+    Field *field = frame->data;
+    if (frame->technique->variant == CONES) maps_need_cones(&field->maps, &field->wall.height_image);
     wall_bind(&field->wall, frame->program);
     maps_bind(&field->maps, frame->program);
     program_vector(frame->program, "light", field->light.x, field->light.y, field->light.z, 0);
@@ -140,7 +144,30 @@ Vec2 relief_texels(const void *data) {
 
 /* ---- The lesson's own metrics ---- */
 
+/* Of all levels of a texture of 32-bit floats. */
+static double texture_bytes(const Texture *texture, int channels) {
+    double texels = 0.0;
+    for (int level = 0, width = texture->width, height = texture->height; level < texture->levels; level++) {
+        texels += (double)width * height;
+        width = width > 1 ? width / 2 : 1, height = height > 1 ? height / 2 : 1;
+    }
+    return 4.0 * channels * texels;
+}
+
+/* What a search reads beside colour and height, and how long that took to build. */
+static void add_maps(const Shots *shots, Table *table) {
+    const Field *field = shots->frame->data;
+    const Maps *maps = &field->maps;
+    int variant = shots->frame->technique->variant;
+    if (variant != PYRAMID && variant != CONES) return;
+    const Texture *own = variant == PYRAMID ? &maps->pyramid : &maps->cones;
+    double bytes = texture_bytes(&maps->corners, 4) + texture_bytes(own, 1);
+    table_add(table, shots, NULL, "bytes", bytes, "bytes");
+    table_add(table, shots, NULL, "build_ms", variant == PYRAMID ? maps->pyramid_ms : maps->cones_ms, "ms");
+}
+
 void relief_measure(const Shots *shots, Table *table) {
+    add_maps(shots, table);
     for (int i = 0; i < shots->count; i++) {
         const Shot *shot = &shots->shots[i];
         HitErrors errors =

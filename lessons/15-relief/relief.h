@@ -8,12 +8,13 @@
 /* The maps that searches stand on beside the heights: see pyramid.h and cone.h. */
 typedef struct {
     Texture corners, pyramid, cones;
-    double pyramid_ms, cones_ms; /* what they took to build, the corners with each */
+    double pyramid_ms, cones_ms; /* what they took to build; the corners count with the pyramid */
 } Maps;
 
-/* Builds them for a height map of one channel. maps_bind gives the program in use corner_map, pyramid_map and
- * cone_map. */
+/* Builds corners and pyramid for a height map of one channel; maps_need_cones builds the cones, once, for
+ * that takes longer. maps_bind gives the program in use corner_map, pyramid_map and cone_map. */
 Maps maps_create(const Image *height);
+void maps_need_cones(Maps *maps, const Image *height);
 void maps_bind(const Maps *maps, Program *program);
 void maps_destroy(Maps *maps);
 
@@ -24,8 +25,8 @@ typedef struct {
     Vec3 light; /* unit, toward it, in the polygon's frame */
 } Field;
 
-/* For techniques of the scene `shadow`: with SHADOWED the light's own ray is followed too. */
-enum { UNSHADOWED, SHADOWED };
+/* A technique's variant. SHADOWED: the light's own ray is followed too. The others: which maps it reads. */
+enum { HEIGHTS, SHADOWED, PYRAMID, CONES };
 
 /* Scene callbacks, see lesson.h. The polygon is the relief's top (base 1, or what the file says). */
 void *relief_load(const Options *options);

@@ -126,6 +126,7 @@ static Range *range_create(const Map *map, double base) {
     double aspect = row ? 0.75 : (double)map->height / map->width;
     range->relief = (Relief){&range->height, 1.0, aspect, 0.1, base, RELIEF_REPEATED};
     range->maps = maps_create(&range->height);
+    maps_need_cones(&range->maps, &range->height);
     range->origins_texture = texture_create(&range->origins, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
     return range;
 }
