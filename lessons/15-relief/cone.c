@@ -9,6 +9,9 @@
 /* Cells at most so far apart, across or up, are near: their slopes are bounded by the surface's own. */
 enum { NEAR = 2, SIDE_LEAST = 2 * NEAR + 2 };
 
+/* By how much of itself a slope may be too large, for a faster search. */
+static const double GENEROSITY = 0.05;
+
 typedef struct {
     Image corners;
     Pyramid pyramid;
@@ -53,31 +56,34 @@ static double near_slope(const Job *job, int x, int y, int i, int j) {
     return steepest;
 }
 
+/* The four corners of the near cells: the ways to all others stay within theirs. */
 static double near_cone(const Job *job, int x, int y) {
     double m = 0.0;
-    for (int j = -NEAR; j <= NEAR; j++)
-        for (int i = -NEAR; i <= NEAR; i++) m = fmax(m, near_slope(job, x, y, i, j));
+    for (int j = -NEAR; j <= NEAR; j += 2 * NEAR)
+        for (int i = -NEAR; i <= NEAR; i += 2 * NEAR) m = fmax(m, near_slope(job, x, y, i, j));
     return m;
 }
 
 /* ---- Far cells: the slopes between their corners ---- */
 
-/* A cell, and the slope of the cone that is known to be needed so far. */
+/* A cell whose cone is being found: the steepest slope found so far, and what it has been granted. */
 typedef struct {
     int x, y;
     const float *heights; /* of its corners */
-    double lowest, m;
+    double lowest, found, granted;
 } Apex;
 
 /* How far the cell i is from the cells from..to-1, around a world of that many cells. */
 static int gap(int i, int from, int to, int size) {
     if (i >= from && i < to) return 0;
-    int forward = wrap(from - (i + 1), size), backward = wrap(i - to, size);
+    int forward = from - (i + 1), backward = i - to;
+    if (forward < 0) forward += size;
+    if (backward < 0) backward += size;
     return forward < backward ? forward : backward;
 }
 
 static int distance_around(int a, int b, int size) {
-    int d = wrap(a - b, size);
+    int d = abs(a - b);
     return d < size - d ? d : size - d;
 }
 
@@ -90,34 +96,43 @@ static double stretch(double d) { return 1.0 + 0.5 / (d * d); }
 /* The steepest way from a corner of the apex's cell to one of the cell (x, y). */
 static double corner_slope(const Job *job, const Apex *apex, int x, int y) {
     const float *heights = corners_at(job, x, y);
-    double steepest = 0.0;
+    double steepest_squared = 0.0;
     for (int p = 0; p < 4; p++)
         for (int q = 0; q < 4; q++) {
-            int dx = distance_around(x + q % 2, apex->x + p % 2, job->corners.width);
-            int dy = distance_around(y + q / 2, apex->y + p / 2, job->corners.height);
-            steepest = fmax(steepest, ((double)heights[q] - apex->heights[p]) / hypot(dx, dy));
+            double rise = (double)heights[q] - apex->heights[p];
+            double dx = distance_around(x + q % 2, apex->x + p % 2, job->corners.width);
+            double dy = distance_around(y + q / 2, apex->y + p / 2, job->corners.height);
+            double squared = dx * dx + dy * dy; /* no division where there is nothing to divide */
+            if (rise > 0.0 && rise * rise > steepest_squared * squared)
+                steepest_squared = rise * rise / squared;
         }
-    return steepest;
+    return sqrt(steepest_squared);
 }
 
-/* Raises m to what the cells of one block of the pyramid need, looking closer only where that may be more. */
-static void raise_for_block(const Job *job, Apex *apex, int level, int i, int j) {
+/* Does for the cells of one block of the pyramid. What all of it can need at most is granted unseen where
+ * that is hardly more than what was found elsewhere; otherwise it is looked at more closely. */
+static void grant_block(const Job *job, Apex *apex, int level, int i, int j) {
     const Image *map = &job->corners, *tops = &job->pyramid.levels[level];
     int x0 = i << level, y0 = j << level, x1 = (i + 1) << level, y1 = (j + 1) << level;
     if (x0 >= map->width || y0 >= map->height) return;
-    int dx = gap(apex->x, x0, x1 < map->width ? x1 : map->width, map->width);
-    int dy = gap(apex->y, y0, y1 < map->height ? y1 : map->height, map->height);
+    double dx = gap(apex->x, x0, x1 < map->width ? x1 : map->width, map->width);
+    double dy = gap(apex->y, y0, y1 < map->height ? y1 : map->height, map->height);
+    double d = sqrt(dx * dx + dy * dy), most = (*image_at(tops, i, j) - apex->lowest) / d * stretch(d);
     bool far = dx >= NEAR || dy >= NEAR;
-    double d = hypot(dx, dy), top = *image_at(tops, i, j);
-    if (far && (top - apex->lowest) / d * stretch(d) <= apex->m) return;
+    if (far && most <= (1.0 + GENEROSITY) * apex->found) {
+        apex->granted = fmax(apex->granted, most);
+        return;
+    }
     if (level > 0) {
+        /* The nearest first, for what it needs spares a closer look at those behind it. */
+        int nearest = (apex->x >= (2 * i + 1) << (level - 1)) + 2 * (apex->y >= (2 * j + 1) << (level - 1));
         for (int k = 0; k < 4; k++) {
-            int child_x = 2 * i + k % 2, child_y = 2 * j + k / 2;
+            int child_x = 2 * i + (k ^ nearest) % 2, child_y = 2 * j + (k ^ nearest) / 2;
             if (child_x < tops[-1].width && child_y < tops[-1].height)
-                raise_for_block(job, apex, level - 1, child_x, child_y);
+                grant_block(job, apex, level - 1, child_x, child_y);
         }
     } else if (far) {
-        apex->m = fmax(apex->m, corner_slope(job, apex, x0, y0) * stretch(d));
+        apex->found = fmax(apex->found, stretch(d) * corner_slope(job, apex, x0, y0));
     }
 }
 
@@ -126,9 +141,9 @@ static void find_cones_of_row(void *context, int y) {
     int coarsest = job->pyramid.count - 1;
     for (int x = 0; x < job->cones->width; x++) {
         const float *heights = corners_at(job, x, y);
-        Apex apex = {x, y, heights, lowest_corner(heights), near_cone(job, x, y)};
-        raise_for_block(job, &apex, coarsest, 0, 0);
-        *image_at(job->cones, x, y) = nextafterf((float)apex.m, INFINITY);
+        Apex apex = {x, y, heights, lowest_corner(heights), near_cone(job, x, y), 0.0};
+        grant_block(job, &apex, coarsest, 0, 0);
+        *image_at(job->cones, x, y) = nextafterf((float)fmax(apex.found, apex.granted), INFINITY);
     }
 }
 
