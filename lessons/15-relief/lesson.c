@@ -38,11 +38,16 @@
 
 /* ---- The scenes ---- */
 
-#define SCENE(sample_count) \
+#define SCENE(sample_count, ...) \
     .unload = relief_unload, .draw = relief_draw, .truth = relief_truth, .texels = relief_texels, \
     .measure = relief_measure, .background = {0.02, 0.02, 0.02}, .samples = sample_count, \
     .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
-              {"base", 1, "height of the polygon, unless base_of_file says otherwise"}}
+              {"base", 1, "height of the polygon, unless base_of_file says otherwise"}, __VA_ARGS__}
+#define LIT \
+    {"light_azimuth", 148, "degrees from +x toward +y, of a light infinitely far"}, \
+    {"light_tangent", 1.2, "of its angle from the normal"}, \
+    {"ambient", 0.2, "colour = texture (ambient + (1 - ambient) max(n.l, 0), or 0 for that in shadow)"}
+#define CUT {"extent", 1, "width: the relief ends with the polygon, whose base is 1 whatever the file says"}
 #define ANGLES .views = {VIEW_30(0.64), VIEW_60(0.37), VIEW_80, VIEW_87}
 /* clang-format on */
 
@@ -53,12 +58,13 @@ static const Lesson lesson = {
     .height = 240,
     .scenes = {
         {"brick", "a brick wall, its bricks' faces in the polygon", .techniques = {MARCHES}, ANGLES,
-         .colour = "brick-256-colour.png", .height = "brick-256-height.png", .load = relief_load, SCENE(18)},
+         .colour = "brick-256-colour.png", .height = "brick-256-height.png", .load = relief_load,
+         SCENE(18, {0})},
         {"terrain", "a real mountain, Levi in Finland, one and a half times as steep as it is",
          .techniques = {MARCHES}, ANGLES, .colour = "terrain-relief.png", .height = "terrain-relief.png",
-         .load = relief_load, SCENE(18)},
+         .load = relief_load, SCENE(18, {0})},
         {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground", .techniques = {MARCHES},
-         ANGLES, .colour = "uv-grid.png", .height = "pins-height.png", .load = relief_load, SCENE(18)},
+         ANGLES, .colour = "uv-grid.png", .height = "pins-height.png", .load = relief_load, SCENE(18, {0})},
         {"shadow", "the wall in the light of a lamp far to the upper left, and in its own shadow",
          .techniques = {{TECHNIQUE("parallax", "lit-parallax", "one height, lit, no shadow")},
                         {TECHNIQUE("relief", "lit-relief", "lit, no shadow"), STEPS(32)},
@@ -67,7 +73,7 @@ static const Lesson lesson = {
                         {TECHNIQUE("maximum-shadow", "lit-maximum", "the same, both rays exact"),
                          .variant = SHADOWED}},
          .views = {VIEW_30(0.64), VIEW_60(0.37), NEAR(0.3, -0.5, 0.6)}, .colour = "brick-256-colour.png",
-         .height = "brick-256-height.png", .load = relief_load_lit, .move = relief_move, SCENE(18)},
+         .height = "brick-256-height.png", .load = relief_load_lit, .move = relief_move, SCENE(18, LIT)},
         {"silhouette", "the wall's relief ends with the polygon",
          .techniques = {{TECHNIQUE("parallax", "parallax", "one height; the polygon's straight edges")},
                         {TECHNIQUE("relief", "relief", "the polygon's straight edges"), STEPS(32)},
@@ -75,7 +81,7 @@ static const Lesson lesson = {
                          STEPS(32, 128)},
                         {TECHNIQUE("maximum-cut", "cut-maximum", "the same, by the exact search")}},
          .views = {VIEW_30(1.1), VIEW_60(1.1), NEAR(0.7, -0.8, 0.5)}, .colour = "brick-256-colour.png",
-         .height = "brick-256-height.png", .load = relief_load_cut, SCENE(18)},
+         .height = "brick-256-height.png", .load = relief_load_cut, SCENE(18, CUT)},
     }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }
