@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Cells at most so far apart, across or up, are near: their slopes are bounded by the surface's own. */
+/* Cells at most so far apart, across and up, are near. */
 enum { NEAR = 2, SIDE_LEAST = 2 * NEAR + 2 };
 
 /* By how much of itself a slope may be too large, for a faster search. */
@@ -29,7 +29,14 @@ static const float *corners_at(const Job *job, int x, int y) {
 
 static double lowest_corner(const float *h) { return fmin(fmin(h[0], h[1]), fmin(h[2], h[3])); }
 
-/* ---- Near cells: the surface's slope on the way ---- */
+/* A cell whose cone is being found: the steepest slope found so far, and what it has been granted. */
+typedef struct {
+    int x, y;
+    const float *heights; /* of its corners */
+    double lowest, found, granted;
+} Apex;
+
+/* ---- Between neighbours: the surface's slope on the way ---- */
 
 /* The steepest rise with one coordinate, of two slopes, on a way that goes forward (1), backward (-1), or
  * either way (0). */
@@ -47,7 +54,7 @@ static double patch_rise(const float *h, int i, int j) {
 
 /* A straight way from any point of the cell (x, y) to any point of (x + i, y + j) stays in the cells between,
  * and goes one way: it rises by no more than the steepest of them. */
-static double near_slope(const Job *job, int x, int y, int i, int j) {
+static double way_slope(const Job *job, int x, int y, int i, int j) {
     double steepest = 0.0;
     for (int b = 0; b <= abs(j); b++)
         for (int a = 0; a <= abs(i); a++)
@@ -56,31 +63,7 @@ static double near_slope(const Job *job, int x, int y, int i, int j) {
     return steepest;
 }
 
-/* The four corners of the near cells: the ways to all others stay within theirs. */
-static double near_cone(const Job *job, int x, int y) {
-    double m = 0.0;
-    for (int j = -NEAR; j <= NEAR; j += 2 * NEAR)
-        for (int i = -NEAR; i <= NEAR; i += 2 * NEAR) m = fmax(m, near_slope(job, x, y, i, j));
-    return m;
-}
-
-/* ---- Far cells: the slopes between their corners ---- */
-
-/* A cell whose cone is being found: the steepest slope found so far, and what it has been granted. */
-typedef struct {
-    int x, y;
-    const float *heights; /* of its corners */
-    double lowest, found, granted;
-} Apex;
-
-/* How far the cell i is from the cells from..to-1, around a world of that many cells. */
-static int gap(int i, int from, int to, int size) {
-    if (i >= from && i < to) return 0;
-    int forward = from - (i + 1), backward = i - to;
-    if (forward < 0) forward += size;
-    if (backward < 0) backward += size;
-    return forward < backward ? forward : backward;
-}
+/* ---- Beyond: the slopes between corners ---- */
 
 static int distance_around(int a, int b, int size) {
     int d = abs(a - b);
@@ -107,6 +90,32 @@ static double corner_slope(const Job *job, const Apex *apex, int x, int y) {
                 steepest_squared = rise * rise / squared;
         }
     return sqrt(steepest_squared);
+}
+
+/* ---- Near cells ---- */
+
+/* Next to the apex's cell the slope on the way decides; one cell farther, whichever bound is the lower. */
+static double near_cone(const Job *job, const Apex *apex) {
+    double m = 0.0;
+    for (int j = -NEAR; j <= NEAR; j++)
+        for (int i = -NEAR; i <= NEAR; i++) {
+            double slope = way_slope(job, apex->x, apex->y, i, j);
+            double d = hypot(abs(i) > 1, abs(j) > 1);
+            if (d > 0.0) slope = fmin(slope, stretch(d) * corner_slope(job, apex, apex->x + i, apex->y + j));
+            m = fmax(m, slope);
+        }
+    return m;
+}
+
+/* ---- Far cells ---- */
+
+/* How far the cell i is from the cells from..to-1, around a world of that many cells. */
+static int gap(int i, int from, int to, int size) {
+    if (i >= from && i < to) return 0;
+    int forward = from - (i + 1), backward = i - to;
+    if (forward < 0) forward += size;
+    if (backward < 0) backward += size;
+    return forward < backward ? forward : backward;
 }
 
 /* Does for the cells of one block of the pyramid. What all of it can need at most is granted unseen where
@@ -141,7 +150,8 @@ static void find_cones_of_row(void *context, int y) {
     int coarsest = job->pyramid.count - 1;
     for (int x = 0; x < job->cones->width; x++) {
         const float *heights = corners_at(job, x, y);
-        Apex apex = {x, y, heights, lowest_corner(heights), near_cone(job, x, y), 0.0};
+        Apex apex = {x, y, heights, lowest_corner(heights), 0.0, 0.0};
+        apex.found = near_cone(job, &apex);
         grant_block(job, &apex, coarsest, 0, 0);
         *image_at(job->cones, x, y) = nextafterf((float)fmax(apex.found, apex.granted), INFINITY);
     }
