@@ -643,12 +643,13 @@ static void enlarged_destinations_show_the_overflow(void **unused) {
     }
 }
 
-/* Each texel of an auxiliary polygon against the ray from the eye through its centre. */
+/* Each texel of an auxiliary polygon against the ray from the eye through its centre: 2.5 % differ, nearly
+ * all of them on noise, whose cells are not two triangles each. */
 static void auxiliaries_show_what_rays_see(void **unused) {
     (void)unused;
     double bad = 0, all = 0, shown = 0;
     for (int e = 0; e < EYES; e++) {
-        Source source = relief_new(e % 2 ? SMOOTH : STEPS, 40, 28, 0.15, e % 3 / 2.0);
+        Source source = relief_new(e % KINDS, 40, 28, 0.15, e % 4 / 3.0);
         Eye eye = eye_number(e);
         PrewarpFactors k = prewarp_factors(&source.plane, eye);
         for (Edge edge = 0; edge < EDGES; edge++) {
@@ -667,7 +668,7 @@ static void auxiliaries_show_what_rays_see(void **unused) {
         source_destroy(&source);
     }
     assert_true(shown > all / 4 && shown < all * 0.95);
-    assert_true(bad < all * 0.05);
+    assert_true(bad < all * 0.031);
 }
 
 int main(void) {
