@@ -50,8 +50,9 @@ static void face_load(Face *face, const char *path, Texel **texels, size_t *coun
     double range = height.scale * vec3_length(face->plane.a);
     for (size_t i = 0; i < own; i++) {
         Texel *texel = &(*texels)[*count + i];
-        for (int k = 0; k < 3; k++) texel->colour[k] = srgb_byte(colour.pixels[3 * i + k]);
-        texel->colour[3] = 255;
+        for (int k = 0; k < 3; k++)
+            texel->values[k] = (uint16_t)lround(65535.0 * clamp(colour.pixels[3 * i + k], 0.0, 1.0));
+        texel->values[3] = 65535;
         face->d[i] = height.pixels[i] > 0.0f ? (float)(range * (height.pixels[i] - 1.0)) : NAN;
     }
     *count += own;
@@ -71,7 +72,7 @@ static void check_box(const Box *box, const char *path) {
 }
 
 void box_load(Box *box, const char *path, double bridge) {
-    *box = (Box){0};
+    *box = (Box){.texels = allocate(1, sizeof *box->texels), .texel_count = 1};
     for (int i = 0; i < FACES; i++) {
         char *own = path_of(path, i);
         face_load(&box->faces[i], own, &box->texels, &box->texel_count);

@@ -23,10 +23,10 @@ enum {
 
 extern const char *const face_names[FACES]; /* front, right, top, back, left, bottom */
 
-/* What a texel carries along: its colour and its normal. */
+/* What a texel carries along, each number in 0..65535: linear red, green, blue, and 65535; x, y and z of the
+ * unit normal in the world as (n + 1) / 2, and 65535. */
 typedef struct {
-    uint8_t colour[4];  /* red, green, blue in sRGB; alpha: 255 */
-    uint16_t normal[4]; /* x, y, z of the unit normal in the world as 65535 (n + 1) / 2; and one to spare */
+    uint16_t values[8];
 } Texel;
 
 /* A point of a relief: its texel coordinates and its displacement from the face, in world units. */
@@ -65,7 +65,7 @@ typedef struct {
 
 typedef struct {
     Face faces[FACES];
-    Texel *texels; /* of all faces, row 0 first */
+    Texel *texels; /* nothing, which is 0, then of all faces, row 0 first */
     size_t texel_count;
 } Box;
 

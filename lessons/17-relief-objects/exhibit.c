@@ -121,7 +121,7 @@ static void use_warp(Exhibit *exhibit, int size, int samples) {
     destroy_warp(exhibit);
     exhibit->warp = warp_create(size, samples);
     for (int i = 0; i < DESTINATIONS; i++) {
-        exhibit->colours[i] = texture_empty(size, size, TEXTURE_SRGBA8, TEXTURE_LINEAR);
+        exhibit->colours[i] = texture_empty(size, size, TEXTURE_RGBA16, TEXTURE_LINEAR);
         exhibit->normals[i] = texture_empty(size, size, TEXTURE_RGBA16, TEXTURE_LINEAR);
     }
 }
@@ -133,7 +133,7 @@ void exhibit_prepare(const Frame *frame) {
     if (!warp_box(&exhibit->warp, &exhibit->box, exhibit_eye(&frame->camera), ~0u))
         fail("%s: the eye is in the box, and the faces show nothing from inside", frame->view->name);
     for (int i = 0; i < exhibit->warp.count; i++) {
-        texture_write(&exhibit->colours[i], TEXTURE_SRGBA8, exhibit->warp.destinations[i].colour);
+        texture_write(&exhibit->colours[i], TEXTURE_RGBA16, exhibit->warp.destinations[i].colour);
         texture_write(&exhibit->normals[i], TEXTURE_RGBA16, exhibit->warp.destinations[i].normal);
     }
 }

@@ -38,6 +38,11 @@ static const Lesson lesson = {
          .views = {DIRECTIONS}, .colour = "solids-front.png", .background = {0.02, 0.02, 0.02}, .samples = 18,
          .load = exhibit_load_solids, .unload = exhibit_unload, .draw = exhibit_draw, .move = exhibit_move,
          .truth = exhibit_truth, .measure = exhibit_measure},
+        {"bunny", "the Stanford bunny, a mesh of 70,000 triangles", .techniques = {RELIEF},
+         .views = {DIRECTIONS}, .colour = "bunny-front.png", .other = {"bunny.obj"},
+         .background = {0.02, 0.02, 0.02}, .samples = 18, .load = exhibit_load_bunny,
+         .unload = exhibit_unload, .draw = exhibit_draw, .move = exhibit_move, .truth = exhibit_truth,
+         .measure = exhibit_measure},
     }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }

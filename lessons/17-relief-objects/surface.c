@@ -177,8 +177,8 @@ static void set_normal(const Finder *finder, int x, int y, Texel *texel) {
     Vec3 along_v = vec3_add(pitch(face, 1), vec3_scale(face->plane.f, slope(finder, x, y, 1)));
     Vec3 n = vec3_normalize(vec3_cross(along_u, along_v));
     const double xyz[] = {n.x, n.y, n.z};
-    for (int i = 0; i < 3; i++) texel->normal[i] = (uint16_t)lround(65535.0 * (xyz[i] + 1.0) / 2.0);
-    texel->normal[3] = 65535;
+    for (int i = 0; i < 3; i++) texel->values[4 + i] = (uint16_t)lround(65535.0 * (xyz[i] + 1.0) / 2.0);
+    texel->values[7] = 65535;
 }
 
 /* ---- Tiles ---- */

@@ -7,20 +7,21 @@
 
 enum { DESTINATIONS = 3 };
 
-/* What ends up on a face that faces the eye: texels whose colour and normal OpenGL maps onto it. Both are
- * multiplied by alpha, the share of the texel that is covered, so that they may be filtered: what a texture
- * gives is to be divided by its alpha. Row 0 first, size x size. */
+/* What ends up on a face that faces the eye: texels whose colour and normal OpenGL maps onto it, four numbers
+ * of 16 bits each. Both are multiplied by alpha, the share of the texel that is covered, so that they may be
+ * filtered: what a texture gives is to be divided by its alpha. Row 0 first, size x size. */
 typedef struct {
     int face;
-    uint8_t *colour;  /* red, green, blue in sRGB, of the linear colour times alpha; alpha */
-    uint16_t *normal; /* 65535 alpha (n + 1) / 2, and alpha */
+    uint16_t *colour; /* linear red, green and blue, and 1, times 65535 alpha */
+    uint16_t *normal; /* (n + 1) / 2 and 1, times 65535 alpha */
 } Destination;
 
 typedef struct {
     Destination destinations[DESTINATIONS];
-    int size, samples; /* texels a side; samples a side of a texel */
+    int size, samples; /* texels a side; samples a side of a texel: 1, 2 or 4 */
     int count;         /* destinations in use */
-    uint64_t *words;   /* see warp.c */
+    float *depths;     /* of each sample: see warp.c */
+    uint32_t *winners; /* whose texel it shows */
 } Warp;
 
 /* Memory for destinations of size x size texels, samples x samples each; warp_destroy frees it. */
