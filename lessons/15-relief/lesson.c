@@ -33,6 +33,11 @@
 #define VIEW_60(height) {"60", ORTHOGRAPHIC(3.4641016151377544, 2, height)}
 #define VIEW_80 {"80", ORTHOGRAPHIC(3.9392310120488321, 0.69459271066772133, 0.13)}
 #define VIEW_87 {"87", ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
+/* Rays along no axis, which cross cells askew. */
+#define ASKEW(name, x, y, z, picture_height) \
+    {name, {.eye = {x, y, z}, .up = {0, 0, 1}, .height = picture_height, .near = 0.1, .far = 20}, .extra = true}
+#define ASKEW_60 ASKEW("60-askew", -2.7665545602611914, -2.084748393715176, 2, 0.37)
+#define ASKEW_87 ASKEW("87-askew", -3.190164031348039, -2.4039610263145725, 0.20934382497177531, 0.039)
 #define NEAR(x, y, z) \
     {"near", {.eye = {x, y, z}, .up = {0, 1, 0}, .fov_y_degrees = 45, .near = 0.01, .far = 10}}
 
@@ -48,7 +53,7 @@
     {"light_tangent", 1.2, "of its angle from the normal"}, \
     {"ambient", 0.2, "colour = texture (ambient + (1 - ambient) max(n.l, 0), or 0 for that in shadow)"}
 #define CUT {"extent", 1, "width: the relief ends with the polygon, whose base is 1 whatever the file says"}
-#define ANGLES .views = {VIEW_30(0.64), VIEW_60(0.37), VIEW_80, VIEW_87}
+#define ANGLES .views = {VIEW_30(0.64), VIEW_60(0.37), VIEW_80, VIEW_87, ASKEW_60, ASKEW_87}
 /* clang-format on */
 
 static const Lesson lesson = {
