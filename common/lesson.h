@@ -82,11 +82,20 @@ typedef struct {
     const Shot *shots;
     int count;
     const struct Only *only; /* for shots_want */
+    struct Stage *stage;     /* for shots_time */
 } Shots;
 
 /* Whether anybody asks for that row (see --only): what takes long to measure should not be otherwise. view
  * NULL where the figure belongs to none. */
 bool shots_want(const Shots *shots, const View *view, const char *metric);
+
+/* What one frame takes on the wall clock: C's preparation, and drawing until it is finished. */
+typedef struct {
+    double prepare_ns, draw_ns;
+} Cost;
+
+/* Draws the shots' technique from any camera, for nothing but the time it takes. */
+Cost shots_time(const Shots *shots, const Camera *camera);
 
 typedef struct Table Table;
 

@@ -236,7 +236,8 @@ static void measure_errors(Session *session, int v) {
     }
     if (!measuring) return;
     if (scene->measure)
-        scene->measure(&(Shots){&first, shots, session->view_count, session->choice->only}, session->table);
+        scene->measure(&(Shots){&first, shots, session->view_count, session->choice->only, &session->stage},
+                       session->table);
     for (int i = 0; i < session->view_count; i++) picture_destroy(&shots[i].picture);
 }
 
@@ -369,6 +370,19 @@ static void measure_speed(Session *session, int view_index) {
     free(timings);
     picture_destroy(&scratch);
     progress_step(session->stage.lesson, "speed");
+}
+
+Cost shots_time(const Shots *shots, const Camera *camera) {
+    View view = {.name = "-", .camera = *camera};
+    Frame frame = *shots->frame;
+    frame.view = &view;
+    frame.camera = *camera;
+    frame.looking = false;
+    Picture scratch = {0}; /* only what paints in C needs one */
+    if (frame.technique->paint) scratch = picture_create(frame.width, frame.height, false);
+    Cost cost = stage_time(shots->stage, &frame, &scratch);
+    picture_destroy(&scratch);
+    return cost;
 }
 
 /* ---- All of it ---- */

@@ -5,7 +5,7 @@
 
 #include "lesson.h"
 
-typedef struct {
+typedef struct Stage {
     const Lesson *lesson;
     const Scene *scene;
     Options options;
@@ -30,10 +30,6 @@ Frame stage_frame(const Stage *stage, const Technique *technique, double knob, c
 
 /* Draws the frame into a picture that has its size; the lookup too if the picture has one. */
 void stage_draw(Stage *stage, const Frame *frame, Picture *picture);
-
-typedef struct {
-    double prepare_ns, draw_ns;
-} Cost;
 
 /* Draws the frame without a lookup and without copying it out: the wall clock around C's preparation, and
  * around the finished frame. scratch: of the frame's size, without a lookup, for techniques that paint. */
