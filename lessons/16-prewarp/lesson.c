@@ -15,10 +15,10 @@
     WARPED("depth-none", DEPTH_NONE, "a depth buffer keeps the nearest (West); holes stay"), \
     WARPED("depth-linear", DEPTH_LINEAR, "a depth buffer; holes filled between a texel and its neighbours"), \
     WARPED("depth-splat", DEPTH_SPLAT, "a depth buffer; each texel a soft spot")
+#define POINTS WARPED("occlusion-none", ORDER_NONE, "painted toward the epipole (McMillan), no buffer; holes stay")
+#define LINEAR WARPED("occlusion-linear", ORDER_LINEAR, "painted toward the epipole; holes filled between neighbours")
 #define BY_ORDER \
-    WARPED("occlusion-none", ORDER_NONE, "painted toward the epipole (McMillan), no buffer; holes stay"), \
-    WARPED("occlusion-linear", ORDER_LINEAR, "painted toward the epipole; holes filled between neighbours"), \
-    WARPED("occlusion-splat", ORDER_SPLAT, "painted toward the epipole; each texel a soft spot")
+    POINTS, LINEAR, WARPED("occlusion-splat", ORDER_SPLAT, "painted toward the epipole; each texel a soft spot")
 #define IN_TWO_PASSES WARPED("two-pass", TWO_PASS, "rows, then columns (Oliveira)")
 #define INVERSELY WARPED("inverse", INVERSE, "for each texel of the result, what its ray meets (Parilov)")
 
@@ -85,8 +85,9 @@ static const Lesson lesson = {
          .views = {ANGLES, AROUND}, BRICK, .load = scene_load, TOP},
         {"terrain", "a real mountain, Levi in Finland, one and a half times as steep as it is",
          .techniques = {ALL}, .views = {ANGLES, AROUND}, TERRAIN, .load = scene_load, TOP},
-        {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground", .techniques = {ALL},
-         .views = {ANGLES}, .colour = "uv-grid.png", .height = "pins-height.png", .load = scene_load, TOP},
+        {"pins", "a hostile map: a pin of one texel in each 8 x 8, on flat ground",
+         .techniques = {NOT_WARPED, POINTS, LINEAR, IN_TWO_PASSES}, .views = {ANGLES},
+         .colour = "uv-grid.png", .height = "pins-height.png", .load = scene_load, TOP},
         {"overflow", "the wall below its polygon, seen beyond two edges at most (base 1)",
          .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER_AND_ABOVE}, BRICK,
          .load = scene_load_overflow, TOP},

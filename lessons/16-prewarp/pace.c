@@ -7,7 +7,8 @@
 #include <time.h>
 
 enum { RANDOM_VIEWS = 16, ROUNDS_MIN = 3 };
-static const double SECONDS = 0.1; /* after which no more rounds than that are begun */
+static const double SECONDS = 0.1;      /* after which no more rounds than that are begun, */
+static const double SLOW_SECONDS = 0.5; /* and none more than the first */
 
 static double now_ns(void) {
     struct timespec now;
@@ -15,11 +16,16 @@ static double now_ns(void) {
     return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 
+static bool another_round(int done, double start) {
+    double seconds = 1e-9 * (now_ns() - start);
+    return done < 1 || (done < ROUNDS_MIN && seconds < SLOW_SECONDS) || seconds < SECONDS;
+}
+
 double pace_warp(const Prewarp *prewarp, Way way, Eye eye) {
     Destination destination =
         destination_create(prewarp->source.width, prewarp->source.height, v2(0, 0), v2(1, 1), false);
     double start = now_ns(), fastest = INFINITY;
-    for (int round = -1; round < ROUNDS_MIN || now_ns() - start < 0.2e9 * SECONDS; round++) {
+    for (int round = -1; another_round(round, start); round++) {
         double begun = now_ns();
         scene_warp(prewarp, way, eye, &destination);
         if (round >= 0) fastest = fmin(fastest, now_ns() - begun); /* the first one warms up */
@@ -68,7 +74,7 @@ Pace pace_random(const Prewarp *prewarp, Way way) {
     for (int i = 0; i < RANDOM_VIEWS; i++) tables[i] = pace_table(source, pace_eye(i));
     double start = now_ns();
     Pace pace = {INFINITY, INFINITY};
-    for (int round = 0; round < ROUNDS_MIN || now_ns() - start < 1e9 * SECONDS; round++) {
+    for (int round = 0; another_round(round, start); round++) {
         double begun = now_ns();
         for (int i = 0; i < RANDOM_VIEWS; i++) scene_warp(prewarp, way, pace_eye(i), &destination);
         double warped = now_ns();

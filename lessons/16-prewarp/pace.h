@@ -4,12 +4,13 @@
 
 #include "scene.h"
 
-/* Nanoseconds of one warp for one eye: the fastest of at least three. */
+/* Nanoseconds of one warp for one eye: the fastest of at least three, or of one that is slow. */
 double pace_warp(const Prewarp *prewarp, Way way, Eye eye);
 
 /* Nanoseconds a warp and a scatter, means over views at random: eyes up to 75 degrees from the normal, one to
  * three widths from the polygon's middle. The scatter moves the same texels through a table of where they
- * land: the least that any forward warp has to do. The fastest of at least three rounds in turns. */
+ * land: the least that any forward warp has to do. The fastest of at least three rounds in turns, or of one
+ * that is slow. */
 typedef struct {
     double warp_ns, scatter_ns;
 } Pace;
