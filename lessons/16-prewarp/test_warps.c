@@ -518,8 +518,10 @@ static void hard_eyes_have_pictures(void **unused) {
             PrewarpFactors factors = prewarp_factors(&source.plane, within);
             warp(way, &source, within, &destination);
             for (int i = 0; i < source.width * source.height; i++) {
+                const float *lookup = &destination.lookup[3 * i];
+                assert_true(isfinite(lookup[0]) && isfinite(lookup[1]) && isfinite(lookup[2]));
                 if (is_empty(&destination, i)) continue;
-                double d = source.scale * (destination.lookup[3 * i + 2] - source.base);
+                double d = source.scale * (lookup[2] - source.base);
                 assert_true(1 + factors.k3 * d > LANDING_W_MIN - 1e-3);
                 shown++;
             }

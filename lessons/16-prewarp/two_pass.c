@@ -9,8 +9,9 @@
 #include <string.h>
 
 /* All that a texel carries through both passes; colours are linear light. X and Y say where it belongs, in
- * destination texels whose centres are whole numbers; X is NAN where there is nothing. */
-enum { X, Y, COLOUR, NORMAL = COLOUR + 3, LOOKUP = NORMAL + 3, VALUES = LOOKUP + 3 };
+ * destination texels whose centres are whole numbers; X is NAN where there is nothing. The last value is to
+ * spare: twelve are interpolated four at a time, which takes a tenth less time than eleven. */
+enum { X, Y, COLOUR, NORMAL = COLOUR + 3, LOOKUP = NORMAL + 3, VALUES = LOOKUP + 4 };
 typedef struct {
     float value[VALUES];
 } Point;
@@ -19,26 +20,25 @@ static const Point nothing = {{NAN}};
 
 /* ---- One line, in either pass ---- */
 
-/* Paints what lies between two points onto the line out (every stride-th of it) of that many texels, of which
- * it covers those whose centres it reaches. along is X or Y. */
-static void paint_between(const Point *from, const Point *to, int along, Point *out, int stride, int size) {
+/* Paints what lies between two points onto a line of `size` texels, of which it covers those whose centres it
+ * reaches. along is X or Y. */
+static void paint_between(const Point *from, const Point *to, int along, Point *out, int size) {
     float start = from->value[along], end = to->value[along];
     float low = fmaxf(fminf(start, end), 0.0f), high = fminf(fmaxf(start, end), (float)size - 1.0f);
     if (!(low <= high)) return;
     for (int i = (int)ceilf(low); (float)i <= high; i++) {
         float t = end == start ? 0.0f : ((float)i - start) / (end - start);
-        Point *point = &out[(size_t)i * stride];
         for (int k = 0; k < VALUES; k++)
-            point->value[k] = from->value[k] + t * (to->value[k] - from->value[k]);
+            out[i].value[k] = from->value[k] + t * (to->value[k] - from->value[k]);
     }
 }
 
 /* Paints a line's pieces, of which number i lies between its points i and i + 1, in both runs. */
-static void paint_line(const Point *points, const Run runs[2], int along, Point *out, int stride, int size) {
+static void paint_line(const Point *points, const Run runs[2], int along, Point *out, int size) {
     for (int run = 0; run < 2; run++)
         for (int i = runs[run].first; i != runs[run].end; i += runs[run].step)
             if (!isnan(points[i].value[X]) && !isnan(points[i + 1].value[X]))
-                paint_between(&points[i], &points[i + 1], along, out, stride, size);
+                paint_between(&points[i], &points[i + 1], along, out, size);
 }
 
 /* ---- The points of the source ---- */
@@ -139,12 +139,12 @@ void warp_two_pass(const Source *source, const PrewarpFactors *factors, Destinat
         for (int x = 0; x < columns; x++) out[x] = nothing;
         fetch_row(source, light, y - 1, row);
         place_row(row, y - 1, source, factors, destination);
-        paint_line(row, sheets.columns, X, out, 1, columns);
+        paint_line(row, sheets.columns, X, out, columns);
     }
     for (int x = 0; x < columns; x++) {
         for (int y = 0; y < destination->height; y++) done[y] = nothing;
         for (int y = 0; y < rows; y++) column[y] = between[(size_t)y * columns + x];
-        paint_line(column, sheets.rows, Y, done, 1, destination->height);
+        paint_line(column, sheets.rows, Y, done, destination->height);
         for (int y = 0; y < destination->height; y++)
             put(&done[y], light, destination, (size_t)y * columns + x);
     }

@@ -1,7 +1,7 @@
 /* The two-pass warp (Oliveira, Bishop, McAllister 2000): first every row is stretched and folded within
  * itself, to the columns where its texels belong (u_i), then every column, to the rows (v_i). Both passes are
- * the same loop over a line of texels, between which everything is interpolated, so that no holes are left:
- * what the line jumps over is filled with a slope from one side to the other.
+ * the same loop over a line of texels, between which everything is interpolated, so that no holes are left in
+ * it: what the line jumps over is filled with a slope from one side to the other.
  *
  * Of the paper's variants it is the one that computes v_i in the first pass, from each texel's own
  * displacement, and carries it along the row, interpolated like the colour; the second pass then needs no
@@ -10,8 +10,9 @@
  *
  * What it loses: where a row folds, two of its points come to lie in one column, and the first pass keeps the
  * one painted last, though the second would have moved them apart. They are on one ray only as far as the row
- * knows. And a slope that is narrow in u_i but tall in v_i has few columns to pass through the first pass in.
- */
+ * knows. A slope that is narrow in u_i but tall in v_i has few columns to pass through the first pass in. And
+ * where neighbouring rows end in different columns, nothing is painted between their ends: the only holes, at
+ * the relief's own edges. */
 #ifndef LESSON_TWO_PASS_H
 #define LESSON_TWO_PASS_H
 
