@@ -274,7 +274,7 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
     Choice choice = lesson_size(lesson);
     Orders orders = {0};
     const char *only = NULL;
-    bool listing = false;
+    bool listing = false, sized = false;
     opterr = 0; /* the messages are ours */
     for (int option; (option = getopt_long(argc, argv, ":", long_options, NULL)) != -1;) {
         switch (option) {
@@ -291,7 +291,10 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
         case 'T': choice.technique = optarg; break;
         case 'K': choice.knob = parse_number("--knob", optarg, 1e-6, 1e6); break;
         case 'V': choice.view = optarg; break;
-        case 'W': parse_size(optarg, &choice); break;
+        case 'W':
+            parse_size(optarg, &choice);
+            sized = true;
+            break;
         case 'C': options.colour = optarg; break;
         case 'H': options.height = optarg; break;
         case 'X': options.scale = parse_number("--scale", optarg, 0.0, SCALE_MAX); break;
@@ -317,6 +320,7 @@ int lesson_run(const Lesson *lesson, int argc, char **argv) {
     }
     if (orders.measure) check_writable(orders.measure);
     if (!making) {
+        if (!sized) choice.width = 640, choice.height = 480; /* small pictures' letters need more room */
         window_run(lesson, &options, &choice);
         return 0;
     }

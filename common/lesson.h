@@ -138,7 +138,7 @@ struct Scene {
 struct Lesson {
     const char *name, *title; /* name: the folder's, NN-name */
     Scene scenes[SCENES_MAX];
-    int width, height; /* of pictures where --size does not say; 0: 640x480 */
+    int width, height; /* of pictures where --size does not say, not of windows; 0: 640x480 */
 };
 
 /* A lesson's main: reads the command line, does it, and returns the program's exit status. */
