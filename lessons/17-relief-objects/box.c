@@ -101,13 +101,20 @@ static Vec3 toward(Eye eye, Vec3 point) {
     return eye.w > 0.0 ? vec3_sub(vec3_scale(eye.at, 1.0 / eye.w), point) : eye.at;
 }
 
-int box_faces_toward(const Box *box, Eye eye, int toward_eye[FACES]) {
-    int count = 0;
+/* Those faces that have the eye on one side. */
+static Seen faces_with(const Box *box, Eye eye, bool inside) {
+    Seen seen = {.inside = inside};
     for (int i = 0; i < FACES; i++) {
         Vec3 way = toward(eye, box->faces[i].plane.origin);
-        if (vec3_dot(way, box->faces[i].plane.f) > 1e-6 * vec3_length(way)) toward_eye[count++] = i;
+        double height = vec3_dot(way, box->faces[i].plane.f) * (inside ? -1.0 : 1.0);
+        if (height > 1e-6 * vec3_length(way)) seen.faces[seen.count++] = i;
     }
-    return count;
+    return seen;
+}
+
+Seen box_faces_seen(const Box *box, Eye eye) {
+    Seen seen = faces_with(box, eye, false);
+    return seen.count ? seen : faces_with(box, eye, true);
 }
 
 /* A triangle with normal n at p faces away where n.(eye - p) <= 0. As seen from the sphere's centre the eye

@@ -15,10 +15,9 @@
 
 enum {
     FACES = 6,
-    TILE = 15,            /* cells along a side of a tile, so that a row of it has 16 texels */
-    ROW = TILE + 1,       /* those */
-    OPPOSITE = FACES / 2, /* face i is opposite to face i + 3 */
-    DEFAULT_BRIDGE = 8    /* see box_load */
+    TILE = 15,           /* cells along a side of a tile, so that a row of it has 16 texels */
+    ROW = TILE + 1,      /* those */
+    OPPOSITE = FACES / 2 /* face i is opposite to face i + 3 */
 };
 
 extern const char *const face_names[FACES]; /* front, right, top, back, left, bottom */
@@ -76,9 +75,15 @@ typedef struct {
 void box_load(Box *box, const char *path, double bridge);
 void box_destroy(Box *box);
 
-/* The faces of the box that an eye sees from outside, one to three, in the order of `faces`; 0 for an eye in
- * the box. A face counts only if the eye is in front of its plane by more than 1e-6 of their distance. */
-int box_faces_toward(const Box *box, Eye eye, int toward[FACES]);
+/* The faces of the box that an eye looks at the object through, in the order of `faces`: from outside the one
+ * to three that it is in front of, from inside all six, or those that it is not in the plane of. Being within
+ * 1e-6 of the distance to a face's corner is being in its plane. */
+typedef struct {
+    int faces[FACES], count;
+    bool inside;
+} Seen;
+
+Seen box_faces_seen(const Box *box, Eye eye);
 
 /* Whether all of a tile's triangles face away from an eye, as far as its sphere and its cone tell. */
 bool tile_faces_away(const Tile *tile, Eye eye);

@@ -1,16 +1,23 @@
-/* What the lesson shows: an object as six reliefs, as a mesh, and as rays have it. */
+/* What the lesson shows: an object as six reliefs in a box, as a mesh, and as rays have it. */
 #ifndef LESSON_EXHIBIT_H
 #define LESSON_EXHIBIT_H
 
 #include "lesson.h"
 #include "warp.h"
 
-/* A technique's variant: what is warped. */
-typedef enum { ALL_FACES, FRONT_FACES, NO_RIMS, POINTS, FLAT, MESH } Variant;
+/* A technique's variant: what it makes of the six reliefs. */
+typedef enum {
+    EXHIBIT_MESH,
+    EXHIBIT_FLAT,
+    EXHIBIT_ALL,
+    EXHIBIT_FRONTS,
+    EXHIBIT_CELLS,
+    EXHIBIT_BRIDGED
+} Variant;
 
-/* Scene callbacks, see lesson.h. The colour file is the front's; the other five lie beside it. */
+/* Scene callbacks, see lesson.h. The colour file is the front's relief; the other five lie beside it. */
 void *exhibit_load_solids(const Options *options);
-void *exhibit_load_bunny(const Options *options); /* the first other file is its mesh */
+void *exhibit_load_bunny(const Options *options); /* the other file is its mesh */
 void exhibit_unload(void *data);
 void exhibit_prepare(const Frame *frame);
 void exhibit_draw(const Frame *frame);
