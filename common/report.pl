@@ -474,7 +474,6 @@ sub scene_html {
     for (['Error against cost', cost_plots($lesson, $scene, 'rmse')],
         ['Error against cost, for the Gaussian pixel', cost_plots($lesson, $scene, 'rmse_gaussian')],
         ['Error of the lookup against cost', cost_plots($lesson, $scene, 'uv_error_texels_rms')],
-        ['Wrong hits against cost', cost_plots($lesson, $scene, 'wrong_hit_percent')],
         (map { ["<code>$_</code> against cost", cost_plots($lesson, $scene, $_)],
                ["<code>$_</code> against time, beside earlier lessons (dashed)", compared_plots($lesson, $scene, $_)] }
             grep { /^wrong_|error/ } @{$scene->{own}}),
