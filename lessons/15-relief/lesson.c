@@ -29,17 +29,17 @@
 #define ORTHOGRAPHIC(x, z, picture_height) \
     {.eye = {x, 0.02, z}, .target = {0, 0.02, 0}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}
 
-#define VIEW_30(height) {"30", ORTHOGRAPHIC(2, 3.4641016151377544, height)}
-#define VIEW_60(height) {"60", ORTHOGRAPHIC(3.4641016151377544, 2, height)}
-#define VIEW_80 {"80", ORTHOGRAPHIC(3.9392310120488321, 0.69459271066772133, 0.13)}
-#define VIEW_87 {"87", ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
+#define VIEW_30(height) {.name = "30", .camera = ORTHOGRAPHIC(2, 3.4641016151377544, height)}
+#define VIEW_60(height) {.name = "60", .camera = ORTHOGRAPHIC(3.4641016151377544, 2, height)}
+#define VIEW_80 {.name = "80", .camera = ORTHOGRAPHIC(3.9392310120488321, 0.69459271066772133, 0.13)}
+#define VIEW_87 {.name = "87", .camera = ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
 /* Rays along no axis, which cross cells askew. */
-#define ASKEW(name, x, y, z, picture_height) \
-    {name, {.eye = {x, y, z}, .up = {0, 0, 1}, .height = picture_height, .near = 0.1, .far = 20}, .extra = true}
+#define ASKEW(id, x, y, z, picture_height) \
+    {.name = id, .camera = {.eye = {x, y, z}, .up = {0, 0, 1}, .height = picture_height, .near = 0.1, .far = 20}, .extra = true}
 #define ASKEW_60 ASKEW("60-askew", -2.7665545602611914, -2.084748393715176, 2, 0.37)
 #define ASKEW_87 ASKEW("87-askew", -3.190164031348039, -2.4039610263145725, 0.20934382497177531, 0.039)
 #define NEAR(x, y, z) \
-    {"near", {.eye = {x, y, z}, .up = {0, 1, 0}, .fov_y_degrees = 45, .near = 0.01, .far = 10}}
+    {.name = "near", .camera = {.eye = {x, y, z}, .up = {0, 1, 0}, .fov_y_degrees = 45, .near = 0.01, .far = 10}}
 
 /* ---- The scenes ---- */
 
