@@ -1,7 +1,10 @@
 /* Relief textures by pre-warp: each texel is moved, before anything is drawn, to where the polygon must show
  * it.
  *
- * What to look for: walk around the wall (drag), and let the light go around (space). */
+ * What to look for: walk around the wall (drag). With `plain` it is wallpaper. With `occlusion-none` it opens
+ * like a fan: between texels that were moved apart there is nothing. `occlusion-linear` closes that, without
+ * a depth buffer: what is in front was painted last. Let the light go around (space): the normals moved
+ * along. In the scene `overflow` go down to a corner and compare `lost` with `auxiliary`. */
 #include "scene.h"
 
 /* ---- The techniques ---- */
@@ -30,23 +33,26 @@
 
 /* ---- The views: lesson 15's, orthographic and turned about y ... ---- */
 
-#define ORTHOGRAPHIC(x, z, picture_height) \
-    {.eye = {x, 0.02, z}, .target = {0, 0.02, 0}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}
+#define TURNED(id, x, z, picture_height) \
+    {.name = id, .camera = {.eye = {x, 0.02, z}, .target = {0, 0.02, 0}, .up = {0, 1, 0}, .height = picture_height, \
+                            .near = 0.1, .far = 20}}
 #define ANGLES \
-    {"30", ORTHOGRAPHIC(2, 3.4641016151377544, 0.64)}, {"60", ORTHOGRAPHIC(3.4641016151377544, 2, 0.37)}, \
-    {"80", ORTHOGRAPHIC(3.9392310120488321, 0.69459271066772133, 0.13)}, \
-    {"87", ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
+    TURNED("30", 2, 3.4641016151377544, 0.64), TURNED("60", 3.4641016151377544, 2, 0.37), \
+    TURNED("80", 3.9392310120488321, 0.69459271066772133, 0.13), \
+    TURNED("87", 3.9945181390182953, 0.20934382497177531, 0.039)
 
 /* ... and all around: at an angle from the normal (by its sine and cosine) and in a direction (x, y) of the plane, the
  * eye 1.5 widths away and infinitely far. The whole polygon is in view. ---- */
 
-#define NEAR(id, s, c, x, y, degrees) \
-    id, {.eye = {1.5 * (s) * (x), 1.5 * (s) * (y), 1.5 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
-         .fov_y_degrees = degrees, .near = 0.1, .far = 10}
-#define FAR(id, s, c, x, y, picture_height) \
-    id "-far", {.eye = {4 * (s) * (x), 4 * (s) * (y), 4 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
-                .height = picture_height, .near = 0.1, .far = 20}
-#define BOTH(id, s, c, degrees, height, x, y) {NEAR(id, s, c, x, y, degrees), true}, {FAR(id, s, c, x, y, height), true}
+#define NEAR(id, s, c, x, y, degrees, unpictured) \
+    {.name = id, .extra = unpictured, \
+     .camera = {.eye = {1.5 * (s) * (x), 1.5 * (s) * (y), 1.5 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
+                .fov_y_degrees = degrees, .near = 0.1, .far = 10}}
+#define FAR(id, s, c, x, y, picture_height, unpictured) \
+    {.name = id "-far", .extra = unpictured, \
+     .camera = {.eye = {4 * (s) * (x), 4 * (s) * (y), 4 * (c)}, .up = {0, (s) == 0, (s) != 0}, \
+                .height = picture_height, .near = 0.1, .far = 20}}
+#define BOTH(id, s, c, degrees, height, x, y) NEAR(id, s, c, x, y, degrees, true), FAR(id, s, c, x, y, height, true)
 #define R2 0.70710678118654752
 #define EIGHT(id, ...) \
     BOTH(id "-000", __VA_ARGS__, 1, 0), BOTH(id "-045", __VA_ARGS__, R2, R2), BOTH(id "-090", __VA_ARGS__, 0, 1), \
@@ -57,8 +63,8 @@
     EIGHT("60", 0.86602540378443865, 0.5, 44, 1.1), EIGHT("75", 0.96592582628906829, 0.25881904510252076, 44, 1.1)
 
 #define CORNER_AND_ABOVE \
-    {NEAR("60-045", 0.86602540378443865, 0.5, R2, R2, 44)}, {FAR("60-045", 0.86602540378443865, 0.5, R2, R2, 1.1)}, \
-    {NEAR("0", 0, 1, 0, 0, 40)}
+    NEAR("60-045", 0.86602540378443865, 0.5, R2, R2, 44, false), \
+    FAR("60-045", 0.86602540378443865, 0.5, R2, R2, 1.1, false), NEAR("0", 0, 1, 0, 0, 40, false)
 
 /* ---- The scenes ---- */
 
