@@ -19,8 +19,12 @@
 #define RELIEF \
     {MARCHED("relief", "linear steps, then 6 halvings (Policarpo, Oliveira, Comba 2005)"), \
      STEPS(8, 32, 128, 512, 1024, 4096)}
-#define MAXIMUM {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)"), .variant = PYRAMID}
-#define CONE {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), STEPS(8, 32, 128), .variant = CONES}
+#define CONE \
+    {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), \
+     STEPS(8, 32, 128), .variant = CONES}
+#define MAXIMUM \
+    {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)"), \
+     .variant = PYRAMID}
 #define MARCHES PARALLAX, STEEP, OCCLUSION, RELIEF, CONE, MAXIMUM
 
 /* ---- The views: orthographic, turned about y by an angle that so every ray has; the polygon fills them, and
@@ -35,7 +39,8 @@
 #define VIEW_87 {.name = "87", .camera = ORTHOGRAPHIC(3.9945181390182953, 0.20934382497177531, 0.039)}
 /* Rays along no axis, which cross cells askew. */
 #define ASKEW(id, x, y, z, picture_height) \
-    {.name = id, .camera = {.eye = {x, y, z}, .up = {0, 0, 1}, .height = picture_height, .near = 0.1, .far = 20}, .extra = true}
+    {.name = id, .extra = true, \
+     .camera = {.eye = {x, y, z}, .up = {0, 0, 1}, .height = picture_height, .near = 0.1, .far = 20}}
 #define ASKEW_60 ASKEW("60-askew", -2.7665545602611914, -2.084748393715176, 2, 0.37)
 #define ASKEW_87 ASKEW("87-askew", -3.190164031348039, -2.4039610263145725, 0.20934382497177531, 0.039)
 #define NEAR(x, y, z) \
