@@ -42,14 +42,26 @@ float falling_root(float above, float slope, float curve) {
     return slope < 0.0 ? above / w : w / curve;
 }
 
-// The first t in from..to at which the ray is at or below the patch of a cell, or a negative number. With a, b from
-// the cell's near corner the patch is c0 + c1 a + c2 b + c3 a b; along a line that is quadratic.
-float patch_hit(CellRay ray, vec2 cell, vec4 corners, float from, float to) {
-    float c0 = corners.x, c1 = corners.y - c0, c2 = corners.z - c0, c3 = corners.w - corners.y - c2;
-    vec2 at = ray.start + from * ray.way - cell;
-    float above = 1.0 - from - (c0 + c1 * at.x + c2 * at.y + c3 * at.x * at.y);
+// A patch is c0 + c1 a + c2 b + c3 a b, with a and b from the cell's near corner; its corners' heights come as h00,
+// h10, h01, h11.
+vec4 patch_terms(vec4 corners) {
+    vec2 rise = vec2(corners.y, corners.z) - corners.x;
+    return vec4(corners.x, rise.x, rise.y, corners.w - corners.y - rise.y);
+}
+
+// How far the ray at t is above the patch of a cell.
+float patch_clearance(CellRay ray, vec2 cell, vec4 c, float t) {
+    vec2 at = ray.start + t * ray.way - cell;
+    return 1.0 - t - (c.x + c.y * at.x + c.z * at.y + c.w * at.x * at.y);
+}
+
+// The first t in from..to at which the ray is at or below the patch, or a negative number. Along a line the patch is
+// quadratic.
+float patch_hit(CellRay ray, vec2 cell, vec4 c, float from, float to) {
+    float above = patch_clearance(ray, cell, c, from);
     if (above <= 0.0) return from;
-    float slope = -1.0 - (c1 * ray.way.x + c2 * ray.way.y + c3 * (at.x * ray.way.y + at.y * ray.way.x));
-    float s = falling_root(above, slope, -c3 * ray.way.x * ray.way.y);
+    vec2 at = ray.start + from * ray.way - cell;
+    float slope = -1.0 - (c.y * ray.way.x + c.z * ray.way.y + c.w * (at.x * ray.way.y + at.y * ray.way.x));
+    float s = falling_root(above, slope, -c.w * ray.way.x * ray.way.y);
     return s >= 0.0 && s <= to - from ? from + s : -1.0;
 }

@@ -21,7 +21,7 @@
      STEPS(8, 32, 128, 512, 1024, 4096)}
 #define CONE \
     {MARCHED("cone", "cones that the interpolated surface stays below (Dummer 2006; Bán et al. 2024)"), \
-     STEPS(8, 32, 128), .variant = CONES}
+     STEPS(8, 32, 128, 512), .variant = CONES}
 #define MAXIMUM \
     {MARCHED("maximum", "a pyramid of maxima, then the exact root in a cell (Tevs, Ihrke, Seidel 2008)"), \
      .variant = PYRAMID}

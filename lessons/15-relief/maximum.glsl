@@ -27,7 +27,8 @@ float maximum(sampler2D pyramid_map, sampler2D corner_map, HeightRay line) {
             level += coarser ? 1 : over ? 0 : -1;
             side *= coarser ? 2.0 : over ? 1.0 : 0.5;
         }
-        float hit = patch_hit(ray, cell, texelFetch(corner_map, ivec2(texel), 0), max(t, top), leave);
+        vec4 terms = patch_terms(texelFetch(corner_map, ivec2(texel), 0));
+        float hit = patch_hit(ray, cell, terms, max(t, top), leave);
         if (hit >= 0.0) return hit;
         t = leave;
     }
