@@ -311,7 +311,7 @@ sub compared_plots {
             my ($number) = $other->{name} =~ /^(\d+)/;
             push @others, map {
                 $_->{data}[-1][2] = "$number $_->{technique}{name} $_->{data}[-1][2]";
-                {%$_, dashed => 1}
+                +{%$_, dashed => 1}
             } front($same, $view, $metric, \&whole_ns) if $same;
         }
         push @html, front_plot($lesson, "$scene->{name}-$view-$metric-compared", $view, 'ns per pixel', $metric, 0,
