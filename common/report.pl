@@ -260,6 +260,13 @@ sub whole_ns {
     return defined $value->{ns_per_pixel} ? $value->{ns_per_pixel} + ($value->{prepare_ns_per_pixel} // 0) : undef;
 }
 
+# The cost ratio, and what C prepares in the same measure: a plot without that would call a pre-warp free.
+sub whole_ratio {
+    my $value = shift;
+    return $value->{cost_ratio} unless defined $value->{prepare_ns_per_pixel};
+    return $value->{cost_ratio} * (1 + $value->{prepare_ns_per_pixel} / $value->{ns_per_pixel});
+}
+
 # Lines of a plot of error against cost: for each technique of a scene [cost, error, label] by its knob's values. An
 # error of which only a limit is known stands at the limit.
 sub front {
@@ -296,7 +303,7 @@ sub cost_plots {
     my ($lesson, $scene, $metric) = @_;
     return map {
         front_plot($lesson, "$scene->{name}-$_-$metric", $_, 'cost ratio', $metric, limit($scene, $_, $metric),
-            front($scene, $_, $metric, sub { $_[0]{cost_ratio} }));
+            front($scene, $_, $metric, \&whole_ratio));
     } @{$scene->{views}};
 }
 
