@@ -72,7 +72,7 @@ typedef struct {
  * have theirs instead. Each has colour, and heights that are hollow, with base 1 and a basis; the six faces
  * bound a box. Two neighbours are one surface where their displacements differ by at most `bridge` times
  * their distance. Ends the program with a line that names the file otherwise. box_destroy frees it. */
-void box_load(Box *box, const char *path, double bridge);
+void box_load(Box *box, const char *path, bool bridged);
 void box_destroy(Box *box);
 
 /* The faces of the box that an eye looks at the object through, in the order of `faces`: from outside the one
@@ -92,6 +92,6 @@ bool tile_faces_away(const Tile *tile, Eye eye);
 Vec3 face_point(const Face *face, double u, double v, double d);
 
 /* Makes cells, rims, normals and tiles of the faces' displacements: surface.c, called by box_load. */
-void box_find_surfaces(Box *box, double bridge);
+void box_find_surfaces(Box *box, bool bridged);
 
 #endif

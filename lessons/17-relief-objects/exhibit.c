@@ -10,8 +10,6 @@
 
 enum { SAMPLES_USUAL = 2, MESH_SIDES = 128, SPEED_ROUNDS = 3, SPEED_VIEWS = 16 };
 
-static const double BRIDGE = 8.0; /* a surface steeper than 83 degrees is taken for two */
-
 typedef struct {
     Box box, bridged; /* the latter loaded when first asked for: with all neighbours joined */
     Warp warp;
@@ -80,7 +78,7 @@ static Shape face_shape(const Plane *plane) {
 static Exhibit *load(const Options *options, Mesh mesh) {
     Exhibit *exhibit = allocate(1, sizeof *exhibit);
     exhibit->path = text("%s", options->colour);
-    box_load(&exhibit->box, exhibit->path, BRIDGE);
+    box_load(&exhibit->box, exhibit->path, false);
     for (int i = 0; i < FACES; i++) exhibit->faces[i] = face_shape(&exhibit->box.faces[i].plane);
     exhibit->mesh = mesh;
     exhibit->shape = shape_create(&mesh);
@@ -175,7 +173,7 @@ void exhibit_prepare(const Frame *frame) {
     if (samples != 1 && samples != 2 && samples != 4) fail("%g samples: there are 1, 2 or 4", frame->knob);
     use_warp(exhibit, exhibit->box.faces[0].width, samples);
     if (variant == EXHIBIT_BRIDGED && !exhibit->bridged.texels)
-        box_load(&exhibit->bridged, exhibit->path, INFINITY);
+        box_load(&exhibit->bridged, exhibit->path, true);
     const Box *box = variant == EXHIBIT_BRIDGED ? &exhibit->bridged : &exhibit->box;
     if (variant == EXHIBIT_FLAT)
         copy_flat(warp, box, eye);

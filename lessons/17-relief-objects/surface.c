@@ -14,12 +14,17 @@ static const struct {
 
 static int opposite(int way) { return (way + 2) % 4; }
 
+/* Neighbours that differ by more than STEEPEST times their distance are two surfaces; by more than STEEP, if
+ * the relief on the side sees the wall between them better. */
+static const double STEEP = 1.5, STEEPEST = 8.0;
+static const double SMOOTH = 0.5;
+
 /* What surfaces are found with. */
 typedef struct {
     const Box *box;
     Face *face;
-    double bridge;
-    int side[4]; /* the face of the box that lies each way */
+    bool bridged; /* all neighbours are one surface */
+    int side[4];  /* the face of the box that lies each way */
     int rim_room;
 } Finder;
 
@@ -37,32 +42,44 @@ static Vec3 pitch(const Face *face, int way) {
                       ways[way].x ? (double)ways[way].x / face->width : (double)ways[way].y / face->height);
 }
 
+/* What the relief on the box's side knows of a cliff here: how far the way from texel (x, y) its surface is,
+ * at displacement d of this relief, in texels. No number unless that is between the texel and its neighbour.
+ * A cliff in one relief is a height in the other, known to sixteen bits. */
+static double place_from_side(const Finder *finder, int x, int y, int way, double d) {
+    const Face *face = finder->face, *side = &finder->box->faces[finder->side[way]];
+    Vec3 point = face_point(face, (x + 0.5) / face->width, (y + 0.5) / face->height, d);
+    Vec3 at = vec3_sub(point, side->plane.origin), a = side->plane.a, b = side->plane.b;
+    int column = (int)floor(vec3_dot(at, a) / vec3_dot(a, a) * side->width);
+    int row = (int)floor(vec3_dot(at, b) / vec3_dot(b, b) * side->height);
+    double farther = displacement_at(side, column, row) - vec3_dot(at, side->plane.f);
+    double place = farther / vec3_length(pitch(face, way));
+    return place >= -1e-3 && place <= 1.0 + 1e-3 ? clamp(place, 0.0, 1.0) : NAN;
+}
+
 /* Whether a texel and its neighbour belong to one surface. False where one of them is not there. */
 static bool is_joined(const Finder *finder, int x, int y, int way) {
     const Face *face = finder->face;
-    double rise = displacement_at(face, x + ways[way].x, y + ways[way].y) - displacement_at(face, x, y);
-    return fabs(rise) <= finder->bridge * vec3_length(pitch(face, way));
+    int next_x = x + ways[way].x, next_y = y + ways[way].y;
+    double here = displacement_at(face, x, y), next = displacement_at(face, next_x, next_y);
+    double slope = fabs(next - here) / vec3_length(pitch(face, way));
+    if (finder->bridged || slope <= STEEP) return !isnan(slope);
+    if (!(slope <= STEEPEST)) return false;
+    double middle = (here + next) / 2.0;
+    return isnan(next < here ? place_from_side(finder, x, y, way, middle)
+                             : place_from_side(finder, next_x, next_y, opposite(way), middle));
 }
 
 /* ---- Where a surface ends ---- */
 
-/* How far the surface of a texel reaches toward a neighbour that is lower, or not there: 0 to 1 texel. The
- * relief of the box's side over there sees what is just below this texel's height from the side: what is a
- * cliff here is a height there, known to sixteen bits. Half a texel where it sees something else. */
+/* How far the surface of a texel reaches toward a neighbour that is lower, or not there: to where the side
+ * sees it, just below this texel's height, in the first of its texels there; half a texel where it sees
+ * something else. */
 static double reach_over(const Finder *finder, int x, int y, int way) {
     const Face *face = finder->face, *side = &finder->box->faces[finder->side[way]];
-    double u = (x + 0.5) / face->width, v = (y + 0.5) / face->height, d = displacement_at(face, x, y);
-    Vec3 point = face_point(face, u, v, d), step = pitch(face, way);
-    /* The first of the side's texel centres below this height: so half of one of its texels lower. */
-    Vec3 across = vec3_scale(side->plane.a, 1.0 / side->width),
-         up = vec3_scale(side->plane.b, 1.0 / side->height);
-    double below = 0.5 * fmax(fabs(vec3_dot(across, face->plane.f)), fabs(vec3_dot(up, face->plane.f)));
-    Vec3 at = vec3_sub(vec3_sub(point, vec3_scale(face->plane.f, below)), side->plane.origin);
-    int column = (int)floor(vec3_dot(at, across) / vec3_dot(across, across));
-    int row = (int)floor(vec3_dot(at, up) / vec3_dot(up, up));
-    double length = vec3_length(step);
-    double reach = (vec3_dot(at, side->plane.f) - displacement_at(side, column, row)) / -length;
-    return reach >= -1e-3 && reach <= 1.0 + 1e-3 ? clamp(reach, 0.0, 1.0) : 0.5;
+    double across = fabs(vec3_dot(side->plane.a, face->plane.f)) / side->width;
+    double up = fabs(vec3_dot(side->plane.b, face->plane.f)) / side->height;
+    double place = place_from_side(finder, x, y, way, displacement_at(face, x, y) - fmax(across, up) / 2.0);
+    return isnan(place) ? 0.5 : place;
 }
 
 /* The same toward any neighbour that is not joined: one that is higher ends where this one does. */
@@ -103,6 +120,22 @@ static void add_rim(Finder *finder, Spot a, Spot b, Spot c, size_t texel) {
     face->rims[face->rim_count++] = (Rim){{a, b, c}, face->first + (uint32_t)texel};
 }
 
+/* Whether a texel is on a wall that goes on up on one side and down on the other, apart from both: it is left
+ * to the relief on the side. */
+static bool is_on_wall(const Finder *finder, int x, int y) {
+    const Face *face = finder->face;
+    bool on_wall = false;
+    for (int way = 0; way < 2; way++) {
+        double here = displacement_at(face, x, y);
+        double before = displacement_at(face, x - ways[way].x, y - ways[way].y);
+        double after = displacement_at(face, x + ways[way].x, y + ways[way].y);
+        bool between = (before < here && here < after) || (after < here && here < before);
+        on_wall =
+            on_wall || (between && !is_joined(finder, x, y, way) && !is_joined(finder, x, y, opposite(way)));
+    }
+    return on_wall;
+}
+
 /* What is left of a cell around the corners first..first + count - 1, which are joined: a polygon through
  * them and through the two ends of their surface on the cell's sides, as triangles around the first end. */
 static void add_run(Finder *finder, int x, int y, int first, int count) {
@@ -110,11 +143,14 @@ static void add_run(Finder *finder, int x, int y, int first, int count) {
     int before = (first + 3) % 4, last = (first + count - 1) % 4;
     Spot polygon[6];
     size_t texels[6];
+    bool on_wall = true;
     for (int i = 0; i < count; i++) {
         int column = x + corners[(first + i) % 4].x, row = y + corners[(first + i) % 4].y;
         polygon[i + 1] = spot_of(face, column, row, displacement_at(face, column, row));
         texels[i + 1] = (size_t)row * face->width + column;
+        on_wall = on_wall && is_on_wall(finder, column, row);
     }
+    if (on_wall) return;
     polygon[0] = end_spot(finder, x + corners[first].x, y + corners[first].y, opposite(before));
     polygon[count + 1] = end_spot(finder, x + corners[last].x, y + corners[last].y, last);
     for (int i = 1; i <= count; i++) add_rim(finder, polygon[0], polygon[i], polygon[i + 1], texels[i]);
@@ -142,39 +178,42 @@ static bool add_cell(Finder *finder, int x, int y) {
 
 /* ---- Normals ---- */
 
-/* What the displacement grows by from texel to texel along a way, at a texel. Across an edge of the object a
- * difference would be of neither of its two sides: of the three neighbours left, the two around, and the
- * three right, those are taken that are most nearly on a line. */
-static double slope(const Finder *finder, int x, int y, int way) {
-    double difference[4] = {NAN, NAN, NAN, NAN}; /* from x - 2 to x - 1, and so on to x + 2 */
-    for (int i = 1;
-         i >= 0 && is_joined(finder, x + (i - 1) * ways[way].x, y + (i - 1) * ways[way].y, opposite(way));
-         i--)
-        difference[i] = displacement_at(finder->face, x + (i - 1) * ways[way].x, y + (i - 1) * ways[way].y) -
-                        displacement_at(finder->face, x + (i - 2) * ways[way].x, y + (i - 2) * ways[way].y);
-    for (int i = 2; i <= 3 && is_joined(finder, x + (i - 2) * ways[way].x, y + (i - 2) * ways[way].y, way);
-         i++)
-        difference[i] = displacement_at(finder->face, x + (i - 1) * ways[way].x, y + (i - 1) * ways[way].y) -
-                        displacement_at(finder->face, x + (i - 2) * ways[way].x, y + (i - 2) * ways[way].y);
-    double bend[3], best = INFINITY, result = !isnan(difference[1]) ? difference[1] : difference[2];
-    if (isnan(result)) return 0.0;
-    static const int order[3] = {1, 0, 2}; /* the two around are best where it is smooth */
-    for (int i = 0; i < 3; i++) bend[i] = fabs(difference[i + 1] - difference[i]) * (i == 1 ? 0.5 : 1.0);
-    for (int i = 0; i < 3; i++) {
-        int k = order[i];
-        if (!(bend[k] < best)) continue; /* so for what is not a number */
-        best = bend[k];
-        result = k == 1   ? (difference[1] + difference[2]) / 2.0
-                 : k == 0 ? (3.0 * difference[1] - difference[0]) / 2.0
-                          : (3.0 * difference[2] - difference[3]) / 2.0;
-    }
-    return result;
+/* What the displacement grows by from texel (x, y) to the next along a way, as nearly straight surfaces have
+ * it; no number beyond a cliff. */
+static double step_along(const Face *face, int x, int y, int way) {
+    double rise = displacement_at(face, x + ways[way].x, y + ways[way].y) - displacement_at(face, x, y);
+    return fabs(rise) <= STEEPEST * vec3_length(pitch(face, way)) ? rise : NAN;
 }
 
-static void set_normal(const Finder *finder, int x, int y, Texel *texel) {
-    const Face *face = finder->face;
-    Vec3 along_u = vec3_add(pitch(face, 0), vec3_scale(face->plane.f, slope(finder, x, y, 0)));
-    Vec3 along_v = vec3_add(pitch(face, 1), vec3_scale(face->plane.f, slope(finder, x, y, 1)));
+/* The slope at a texel along a way, of five texels in a row. Across an edge of the object a difference would
+ * be of neither of its two sides: of the three texels before, the three around and the three after, those are
+ * taken that are most nearly on a line. */
+static double slope_at(const Face *face, int x, int y, int way) {
+    double steps[4]; /* from -2 to -1, to 0, to 1, to 2 */
+    for (int i = 0; i < 4; i++)
+        steps[i] = step_along(face, x + (i - 2) * ways[way].x, y + (i - 2) * ways[way].y, way);
+    const struct {
+        double bend, slope; /* how far from a line; the parabola's slope at the texel */
+    } parts[] = {{fabs(steps[2] - steps[1]) / 2.0, (steps[1] + steps[2]) / 2.0}, /* best where it is smooth */
+                 {fabs(steps[1] - steps[0]), (3.0 * steps[1] - steps[0]) / 2.0},
+                 {fabs(steps[3] - steps[2]), (3.0 * steps[2] - steps[3]) / 2.0}};
+    double low = fmin(fmin(steps[0], steps[1]), fmin(steps[2], steps[3]));
+    double high = fmax(fmax(steps[0], steps[1]), fmax(steps[2], steps[3]));
+    bool all = !isnan(steps[0] + steps[1] + steps[2] + steps[3]);
+    if (all && high - low < SMOOTH * vec3_length(pitch(face, way)))
+        return (2.0 * (steps[0] + steps[3]) + 3.0 * (steps[1] + steps[2])) / 10.0;
+    double best = INFINITY, slope = !isnan(steps[1]) ? steps[1] : !isnan(steps[2]) ? steps[2] : 0.0;
+    for (int i = 0; i < 3; i++) {
+        if (!(parts[i].bend < best)) continue; /* so for what is no number */
+        best = parts[i].bend;
+        slope = parts[i].slope;
+    }
+    return slope;
+}
+
+static void set_normal(const Face *face, int x, int y, Texel *texel) {
+    Vec3 along_u = vec3_add(pitch(face, 0), vec3_scale(face->plane.f, slope_at(face, x, y, 0)));
+    Vec3 along_v = vec3_add(pitch(face, 1), vec3_scale(face->plane.f, slope_at(face, x, y, 1)));
     Vec3 n = vec3_normalize(vec3_cross(along_u, along_v));
     const double xyz[] = {n.x, n.y, n.z};
     for (int i = 0; i < 3; i++) texel->values[4 + i] = (uint16_t)lround(65535.0 * (xyz[i] + 1.0) / 2.0);
@@ -281,10 +320,10 @@ static void find_surfaces(Finder *finder) {
     for (int y = 0; y < face->height; y++)
         for (int x = 0; x < face->width; x++)
             if (is_there(face, x, y))
-                set_normal(finder, x, y, &finder->box->texels[face->first + (size_t)y * face->width + x]);
+                set_normal(face, x, y, &finder->box->texels[face->first + (size_t)y * face->width + x]);
 }
 
-void box_find_surfaces(Box *box, double bridge) {
+void box_find_surfaces(Box *box, bool bridged) {
     for (int i = 0; i < FACES; i++)
-        find_surfaces(&(Finder){.box = box, .face = &box->faces[i], .bridge = bridge});
+        find_surfaces(&(Finder){.box = box, .face = &box->faces[i], .bridged = bridged});
 }
