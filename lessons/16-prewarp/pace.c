@@ -7,7 +7,7 @@
 #include <time.h>
 
 enum { RANDOM_VIEWS = 16, ROUNDS_MIN = 3 };
-static const double SECONDS = 0.1;      /* after which no more rounds than that are begun, */
+static const double SECONDS = 0.05;     /* after which no more rounds than that are begun, */
 static const double SLOW_SECONDS = 0.5; /* and none more than the first */
 
 static double now_ns(void) {
