@@ -7,7 +7,7 @@
 
 #include "forward.h"
 
-/* warp_forward with FILLING_LINEAR, into an empty destination. */
+/* warp_forward with FILLING_LINEAR, for possible factors; the destination may hold anything. */
 void fill_cells(const Source *source, const PrewarpFactors *factors, Visibility visibility,
                 Destination *destination, WarpCounts *counts);
 

@@ -66,11 +66,13 @@ static void clear(Destination *destination) {
 void warp_forward(const Source *source, const PrewarpFactors *factors, Visibility visibility, Filling filling,
                   Destination *destination, WarpCounts *counts) {
     if (counts) *counts = (WarpCounts){.behind = factors->possible ? 0 : source->width * source->height};
+    if (factors->possible && filling == FILLING_LINEAR) {
+        fill_cells(source, factors, visibility, destination, counts);
+        return;
+    }
     clear(destination);
     if (!factors->possible) return;
-    if (filling == FILLING_LINEAR)
-        fill_cells(source, factors, visibility, destination, counts);
-    else if (filling == FILLING_SPLAT)
+    if (filling == FILLING_SPLAT)
         splat_texels(source, factors, visibility, destination, counts);
     else if (visibility == VISIBILITY_DEPTH_BUFFER)
         depth_buffer_texels(source, factors, destination, counts);

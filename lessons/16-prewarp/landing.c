@@ -1,6 +1,7 @@
 #include "landing.h"
 
 #include "fail.h"
+#include "lanes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 /* ---- Room for a row ---- */
 
 LandedRow landed_row_create(int count) {
-    size_t entries = (size_t)count + 2;
+    size_t entries = (size_t)count + 2 + LANES;
     char *memory = allocate(entries, sizeof(Texel) + 4 * sizeof(float) + sizeof(uint16_t));
     LandedRow row = {.count = count, .texels = (Texel *)memory + 1, .memory = memory};
     float *floats = (float *)(memory + entries * sizeof(Texel)) + 1;
@@ -56,6 +57,10 @@ static Texel texel_mean(Texel a, Texel b) {
     return a;
 }
 
+#define AWAY 0x1p20f /* where no destination reaches */
+
+typedef uint16_t Words __attribute__((vector_size(16)));
+
 static uint16_t level_mean(uint16_t a, uint16_t b) { return (uint16_t)((a + b + 1) / 2); }
 
 /* A row's texels and levels with both ends, from the source's row or from halfway between its first and last.
@@ -74,20 +79,19 @@ static void fetch(const Source *source, int index, LandedRow *row) {
     row->levels[-1] = row->levels[count] = level_mean(row->levels[0], row->levels[count - 1]);
 }
 
-static void land(const Landing *landing, const LandedRow *row) {
+WIDE static void land(const Landing *landing, const LandedRow *row) {
     const Landing k = *landing;
-    const uint16_t *restrict levels = row->levels;
-    const float *restrict u = row->u;
-    float *restrict x = row->x, *restrict y = row->y, *restrict w = row->w;
-    float y_row = k.y_v * row->v + k.y_0;
-    for (int i = -1; i <= row->count; i++) {
-        float l = levels[i], w_i = k.w_0 + k.w_l * l, r = 1.0f / w_i;
-        float x_i = (k.x_u * u[i] + k.x_0 + k.x_l * l) * r, y_i = (y_row + k.y_l * l) * r;
-        float far = 0x1p20f;
-        int somewhere = (w_i > (float)LANDING_W_MIN) & (fabsf(x_i) < far) & (fabsf(y_i) < far);
-        x[i] = somewhere ? x_i : LANDING_NOWHERE;
-        y[i] = somewhere ? y_i : LANDING_NOWHERE;
-        w[i] = w_i;
+    const Floats nowhere = ALL(LANDING_NOWHERE);
+    const float y_row = k.y_v * row->v + k.y_0;
+    for (int i = -1; i <= row->count; i += LANES) {
+        Words words;
+        Floats u;
+        LOAD(words, row->levels + i), LOAD(u, row->u + i);
+        Floats l = __builtin_convertvector(words, Floats), w = k.w_0 + k.w_l * l, r = 1.0f / w;
+        Floats x = (k.x_u * u + k.x_0 + k.x_l * l) * r, y = (y_row + k.y_l * l) * r;
+        Ints somewhere = (w > (float)LANDING_W_MIN) & (x < AWAY) & (x > -AWAY) & (y < AWAY) & (y > -AWAY);
+        x = PICK(somewhere, x, nowhere), y = PICK(somewhere, y, nowhere);
+        STORE(x, row->x + i), STORE(y, row->y + i), STORE(w, row->w + i);
     }
 }
 

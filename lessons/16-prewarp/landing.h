@@ -17,7 +17,7 @@ typedef struct {
     uint16_t *levels; /* the heights */
     Texel *texels;
     float v;      /* of the whole row */
-    void *memory; /* that all of these lie in */
+    void *memory; /* that all of these lie in, with room for LANES entries more, which mean nothing */
 } LandedRow;
 
 #define LANDING_NOWHERE (-1e9f)
