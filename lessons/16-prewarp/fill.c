@@ -111,7 +111,7 @@ WIDE static void cells_sort(const Painter *painter) {
         Floats d = x11 * y00 - y11 * x00, e = x10 * y01 - y10 * x01;
         /* The four triangles of three corners: all turn left in a convex cell, none in one turned over. */
         Floats t0 = b + r + d, t1 = t + l - d, t2 = b + l + e, t3 = r + t - e;
-        Ints front = (t0 > zero) | (t1 > zero),
+        Ints front = (t0 > zero) | (t1 > zero) | (t2 > zero) | (t3 > zero),
              convex = (t0 > zero) & (t1 > zero) & (t2 > zero) & (t3 > zero);
         Floats least0 = LEAST(b, r), least1 = LEAST(t, l);
         Ints inside = (least0 >= -SLACK) & (least1 >= -SLACK);
@@ -188,7 +188,15 @@ static void put_at(const Painter *painter, size_t at, int i, float s, float t) {
                  (int)(painter->row + (painter->next_row - painter->row) * between(t, 0, 1))});
 }
 
-/* A cell that is not convex, or turned over in part: its two triangles, centre by centre. Few cells are. */
+static bool is_empty(const Painter *painter, size_t at) {
+    Origin origin;
+    memcpy(&origin, painter->destination->texels + at, sizeof origin);
+    return origin.u == NOWHERE;
+}
+
+/* A cell that is not convex, or turned over in part, centre by centre: few cells are. It is taken for the
+ * triangles 00 10 11 and 00 11 01. But the bilinear patch lies anywhere within the tetrahedron of its
+ * corners, so the other two faces count where there is nothing else. */
 static void paint_folded(const Painter *painter, int i) {
     const float *x0 = painter->below.x + i, *x1 = painter->above.x + i, *y0 = painter->below.y + i,
                 *y1 = painter->above.y + i;
@@ -202,14 +210,20 @@ static void paint_folded(const Painter *painter, int i) {
         for (int x = ceil_int(greatest(left, 0)); x < end_column; x++) {
             Point p00 = corner(&painter->below, i - 1, x, y), p10 = corner(&painter->below, i, x, y);
             Point p01 = corner(&painter->above, i - 1, x, y), p11 = corner(&painter->above, i, x, y);
-            float d = cross(p11, p00), b = cross(p00, p10), r = cross(p10, p11), t = cross(p11, p01),
-                  l = cross(p01, p00);
-            float lower = b + r + d, upper = t + l - d;
+            float b = cross(p00, p10), r = cross(p10, p11), t = cross(p11, p01), l = cross(p01, p00);
+            float d = cross(p11, p00), e = cross(p10, p01), near = -SLACK;
+            float t0 = b + r + d, t1 = t + l - d, t2 = b + l + e, t3 = r + t - e;
             size_t at = (size_t)y * width + x;
-            if (lower > 0 && b >= -SLACK && r >= -SLACK && d >= -SLACK)
-                put_at(painter, at, i, 1 - r / lower, b / lower);
-            else if (upper > 0 && t >= -SLACK && l >= -SLACK && d <= SLACK)
-                put_at(painter, at, i, l / upper, 1 - t / upper);
+            if (t0 > 0 && b >= near && r >= near && d >= near)
+                put_at(painter, at, i, 1 - r / t0, b / t0);
+            else if (t1 > 0 && t >= near && l >= near && -d >= near)
+                put_at(painter, at, i, l / t1, 1 - t / t1);
+            else if (!is_empty(painter, at))
+                continue;
+            else if (t2 > 0 && b >= near && l >= near && e >= near)
+                put_at(painter, at, i, l / t2, b / t2);
+            else if (t3 > 0 && r >= near && t >= near && -e >= near)
+                put_at(painter, at, i, 1 - r / t3, 1 - t / t3);
         }
     }
 }
