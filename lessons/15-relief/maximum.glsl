@@ -6,14 +6,16 @@
 // far as the map goes. corner_map: the four heights of each cell.
 //
 // The inner loop leaves a block, and tries one twice as large, or looks closer; it ends at a cell whose highest corner
-// the ray falls below. There the patch decides.
+// the ray falls below. There the patch decides. (One loop for both would do the patch's arithmetic at each step: a GPU
+// runs pixels in groups, through all that any of them needs.)
 float maximum(sampler2D pyramid_map, sampler2D corner_map, HeightRay line) {
+    const int most = 16384; // steps: a ray all but in the plane crosses more cells than floats can count
     CellRay ray = cell_ray(corner_map, line);
     int coarsest = int(log2(max(ray.size.x, ray.size.y))), level = min(3, coarsest);
     float t = 0.0, side = exp2(float(level)), top, leave;
     vec2 cell, texel;
-    for (int steps = 0; steps < 4096; steps++) {
-        for (; steps < 4096; steps++) {
+    for (int steps = 0; steps < most; steps++) {
+        for (; steps < most; steps++) {
             cell = cell_at(ray, t);
             vec2 turns = cell_turns(ray, cell);
             texel = cell - turns;
@@ -23,9 +25,8 @@ float maximum(sampler2D pyramid_map, sampler2D corner_map, HeightRay line) {
             if (top < leave && level == 0) break;
             bool over = top >= leave;
             t = over ? leave : max(t, top);
-            bool coarser = over && level < coarsest;
-            level += coarser ? 1 : over ? 0 : -1;
-            side *= coarser ? 2.0 : over ? 1.0 : 0.5;
+            level = over ? min(level + 1, coarsest) : level - 1;
+            side = exp2(float(level));
         }
         vec4 terms = patch_terms(texelFetch(corner_map, ivec2(texel), 0));
         float hit = patch_hit(ray, cell, terms, max(t, top), leave);

@@ -1,4 +1,4 @@
-/* What the searches `maximum` and `squares` read. Between texel centres the surface is made of cells,
+/* What the searches `maximum` and `cone` read. Between texel centres the surface is made of cells,
  * bilinear patches: cell (x, y) lies between the centres of texels (x, y), (x + 1, y), (x, y + 1) and (x + 1,
  * y + 1) of the repeated map, and nowhere rises above the highest of the four. height has one channel. */
 #ifndef LESSON_PYRAMID_H

@@ -79,9 +79,9 @@ static void test_nothing_rises_above_a_cone(void **state) {
         }
 }
 
-/* A pin, and ground that rises a little: the steepest way to the pin's top begins between two texels, from
- * where it is shorter than from the lower and starts lower than from the higher. A cone that held at texels
- * alone would be 1 % too steep. */
+/* A pin, and ground that rises a little: the steepest way to the pin's top begins between two texels, whence
+ * it is shorter than from the lower of them and rises more than from the higher. A slope that was enough for
+ * the texels would be 1 % too little. */
 static void test_between_texels(void **state) {
     (void)state;
     Image map = image_create(12, 12, 1);
