@@ -188,7 +188,9 @@ static void put_at(const Painter *painter, size_t at, int i, float s, float t) {
                  (int)(painter->row + (painter->next_row - painter->row) * between(t, 0, 1))});
 }
 
+/* Whether nothing lies farther away there; in the order, for the depth buffer cannot know yet. */
 static bool is_empty(const Painter *painter, size_t at) {
+    if (painter->nearest) return false;
     Origin origin;
     memcpy(&origin, painter->destination->texels + at, sizeof origin);
     return origin.u == NOWHERE;
