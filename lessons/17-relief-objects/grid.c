@@ -49,18 +49,33 @@ void grid_triangle(const Grid *grid, Extent extent, Landed a, Landed b, Landed c
     }
 }
 
+typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
+
+static Ints shorts_load(const uint16_t *from) {
+    Shorts lanes;
+    memcpy(&lanes, from, sizeof lanes);
+    return __builtin_convertvector(lanes, Ints);
+}
+
+static void shorts_store(uint16_t *to, Ints from) {
+    Shorts lanes = __builtin_convertvector(from, Shorts);
+    memcpy(to, &lanes, sizeof lanes);
+}
+
 void grid_resolve(const Grid *grid, int samples, int row, const Texel *texels, uint16_t *colour,
                   uint16_t *normal) {
     const uint32_t *from = grid->texels + (size_t)row * samples * grid->stride;
     int shift = samples == 4 ? 4 : samples == 2 ? 2 : 0; /* divides by the number of samples */
     for (int i = 0; i < grid->width / samples; i++, from += samples) {
-        uint32_t sum[8] = {0};
-        for (int y = 0; y < samples; y++)
-            for (int x = 0; x < samples; x++)
-                for (int k = 0; k < 8; k++) sum[k] += texels[from[y * grid->stride + x]].values[k];
-        for (int k = 0; k < 4; k++) {
-            colour[4 * i + k] = (uint16_t)(sum[k] >> shift);
-            normal[4 * i + k] = (uint16_t)(sum[4 + k] >> shift);
+        Ints colours = {0}, normals = {0};
+        for (int y = 0; y < samples; y++) {
+            for (int x = 0; x < samples; x++) {
+                const Texel *texel = &texels[from[y * grid->stride + x]];
+                colours += shorts_load(texel->values);
+                normals += shorts_load(texel->values + 4);
+            }
         }
+        shorts_store(colour + 4 * i, colours >> shift);
+        shorts_store(normal + 4 * i, normals >> shift);
     }
 }
