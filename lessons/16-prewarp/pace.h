@@ -9,8 +9,8 @@ double pace_warp(const Prewarp *prewarp, Way way, Eye eye);
 
 /* Nanoseconds a warp and a scatter, means over views at random: eyes up to 75 degrees from the normal, one to
  * three widths from the polygon's middle. The scatter moves the same texels through a table of where they
- * land: the least that any forward warp has to do. The fastest of at least three rounds in turns, or of one
- * that is slow. */
+ * land: the least that any forward warp has to do. Each view's is the fastest of at least three, or of one
+ * that is slow; scatter and warp take turns, and the view is another each time. */
 typedef struct {
     double warp_ns, scatter_ns;
 } Pace;
