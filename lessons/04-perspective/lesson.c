@@ -36,14 +36,14 @@
 /* ---- The views. The wall's: its normal turned away by an angle, about an axis that is not upright in the
  * picture ---- */
 
-#define TILTED(name, x, z) \
-    {name, {.eye = {x, 0, z}, .up = {0.3, 1, 0}, .fov_y_degrees = 50, .near = 0.05, .far = 20}}
-#define STANDING(name, x, y, z, toward_x, toward_y, toward_z, ...) \
-    {name, {.eye = {x, y, z}, .target = {toward_x, toward_y, toward_z}, .up = {__VA_ARGS__}, .fov_y_degrees = 60, \
-            .near = 0.05, .far = 40000}}
-#define LOOKING(name, x, y, z, toward_z, angle) \
-    {name, {.eye = {x, y, z}, .target = {0, 0, toward_z}, .up = {0.2, 1, 0}, .fov_y_degrees = angle, .near = 0.1, \
-            .far = 20}}
+#define TILTED(id, x, z) \
+    {.name = id, .camera = {.eye = {x, 0, z}, .up = {0.3, 1, 0}, .fov_y_degrees = 50, .near = 0.05, .far = 20}}
+#define STANDING(id, x, y, z, toward_x, toward_y, toward_z, ...) \
+    {.name = id, .camera = {.eye = {x, y, z}, .target = {toward_x, toward_y, toward_z}, .up = {__VA_ARGS__}, \
+                              .fov_y_degrees = 60, .near = 0.05, .far = 40000}}
+#define LOOKING(id, x, y, z, toward_z, angle) \
+    {.name = id, .camera = {.eye = {x, y, z}, .target = {0, 0, toward_z}, .up = {0.2, 1, 0}, .fov_y_degrees = angle, \
+                              .near = 0.1, .far = 20}}
 
 /* ---- The scenes ---- */
 

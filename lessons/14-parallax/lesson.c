@@ -17,7 +17,8 @@
 #define PLAIN {SHADED("plain", "the texture as it lies on the polygon")}
 #define TWO_FETCHES {SHADED("two-fetches", "reads the same two textures unshifted: what any shift must cost")}
 #define DISTORTION_MAP \
-    {SHADED("distortion-map", "the shift of this view built in C, read and added"), .prepare = parallax_prepare_distortion}
+    {SHADED("distortion-map", "the shift of this view built in C, read and added"), \
+     .prepare = parallax_prepare_distortion}
 #define PARALLAX {SHADED("parallax", "the paper's: one view vector for the whole polygon")}
 #define PER_PIXEL {SHADED("per-pixel", "each pixel's own view vector")}
 #define OFFSET_LIMIT {SHADED("offset-limit", "without the division by view.z: a shift of at most d")}
@@ -30,28 +31,30 @@
 #define ORTHOGRAPHIC(x, y, z, picture_height) \
     {.eye = {x, y, z}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}
 
-#define FRONT {"front", ORTHOGRAPHIC(0, 0, 4, 0.74)}
+#define FRONT {.name = "front", .camera = ORTHOGRAPHIC(0, 0, 4, 0.74)}
 #define WALL_30 ORTHOGRAPHIC(2, 0, 3.4641016151377544, 0.64)
 #define WALL_60 ORTHOGRAPHIC(3.4641016151377544, 0, 2, 0.37)
 #define WALL_82 ORTHOGRAPHIC(3.9610722749662936, 0, 0.55669240384026103, 0.1)
 #define NEAR \
-    {"near", {.eye = {0.35, 0.15, 0.45}, .target = {0.05, 0, 0}, .up = {0, 1, 0}, .fov_y_degrees = 50, \
-              .near = 0.01, .far = 10}}
+    {.name = "near", .camera = {.eye = {0.35, 0.15, 0.45}, .target = {0.05, 0, 0}, .up = {0, 1, 0}, \
+                                  .fov_y_degrees = 50, .near = 0.01, .far = 10}}
 
-#define CYLINDER_CORNER {"corner", ORTHOGRAPHIC(0, 0, 4, 1.6)}
-#define CYLINDER_FACE {"face", ORTHOGRAPHIC(1.5307337294603591, 0, 3.6955181300451465, 1.6)} /* 22.5 degrees */
+#define CYLINDER_CORNER {.name = "corner", .camera = ORTHOGRAPHIC(0, 0, 4, 1.6)}
+#define CYLINDER_FACE \
+    {.name = "face", .camera = ORTHOGRAPHIC(1.5307337294603591, 0, 3.6955181300451465, 1.6)} /* 22.5 degrees */
 #define ABOVE \
-    {"above", {.eye = {0.9, 1.2, 3.6}, .up = {0, 1, 0}, .fov_y_degrees = 34, .near = 0.1, .far = 20}}
+    {.name = "above", .camera = {.eye = {0.9, 1.2, 3.6}, .up = {0, 1, 0}, .fov_y_degrees = 34, .near = 0.1, .far = 20}}
 
 /* The face toward +z of every prism of 4 sides or more, seen at an angle from its normal; `middle` is where the
  * picture's middle is, along the picture's width. */
-#define AT_ANGLE(name, s, c, middle, width) \
-    {name, {.eye = {10 * (s) + (middle) * (c), 0, 10 * (c) - (middle) * (s)}, \
+#define AT_ANGLE(id, s, c, middle, width) \
+    {.name = id, .camera = {.eye = {10 * (s) + (middle) * (c), 0, 10 * (c) - (middle) * (s)}, \
             .target = {(middle) * (c), 0, -(middle) * (s)}, .up = {0, 1, 0}, .height = 0.75 * (width), \
             .near = 0.1, .far = 20}}
 
-#define EYE(name, x) \
-    {name, {.eye = {x, 0, 0.7}, .target = {x, 0, 0}, .up = {0, 1, 0}, .fov_y_degrees = 43, .near = 0.1, .far = 10}}
+#define EYE(id, x) \
+    {.name = id, .camera = {.eye = {x, 0, 0.7}, .target = {x, 0, 0}, .up = {0, 1, 0}, .fov_y_degrees = 43, \
+                              .near = 0.1, .far = 10}}
 
 /* ---- The scenes ---- */
 
@@ -75,19 +78,23 @@ static const Lesson lesson = {
         {"brick", "a brick wall, its bricks' faces in the polygon (base 1)",
          .techniques = {PLAIN, TWO_FETCHES, DISTORTION_MAP, PARALLAX, PER_PIXEL, OFFSET_LIMIT,
                         ITERATED(4, 16)},
-         .views = {FRONT, {"30", WALL_30}, {"60", WALL_60}, NEAR}, .colour = "brick-colour.png",
-         .height = "brick-height.png", .path = {WALL_30, ORTHOGRAPHIC(2.5, 0, 3.1224989991991992, 0.64)},
-         .load = parallax_load, .samples = 18, .measure = parallax_measure,
-         WALL(1, "unless base_of_file says otherwise")},
+         .views = {FRONT, {.name = "30", .camera = WALL_30}, {.name = "60", .camera = WALL_60}, NEAR},
+         .colour = "brick-colour.png", .height = "brick-height.png",
+         .path = {WALL_30, ORTHOGRAPHIC(2.5, 0, 3.1224989991991992, 0.64)}, .load = parallax_load,
+         .samples = 18, .measure = parallax_measure, WALL(1, "unless base_of_file says otherwise")},
         {"bottom", "the same wall standing on its polygon (base 0)",
-         .techniques = {PLAIN, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)}, .views = {{"60", WALL_60}, NEAR},
-         .colour = "brick-colour.png", .height = "brick-height.png", .load = parallax_load_bottom,
-         .samples = 18, .measure = parallax_measure, WALL(0, "whatever base_of_file says")},
+         .techniques = {PLAIN, PER_PIXEL, OFFSET_LIMIT, ITERATED(4)},
+         .views = {{.name = "60", .camera = WALL_60}, NEAR}, .colour = "brick-colour.png",
+         .height = "brick-height.png", .load = parallax_load_bottom, .samples = 18,
+         .measure = parallax_measure, WALL(0, "whatever base_of_file says")},
         {"soft", "gentle waves, where the iteration contracts up to an angle of 73 degrees",
          .techniques = {PLAIN, PER_PIXEL, ITERATED(2, 4, 8, 16)},
-         .views = {{"30", WALL_30}, {"60", WALL_60}, {"82", WALL_82}, NEAR}, .colour = "uv-grid.png",
-         .height = "soft-height.png", .load = parallax_load, .samples = 8, .measure = parallax_measure,
-         WALL(1, "unless base_of_file says otherwise")},
+         .views = {{.name = "30", .camera = WALL_30},
+                   {.name = "60", .camera = WALL_60},
+                   {.name = "82", .camera = WALL_82},
+                   NEAR},
+         .colour = "uv-grid.png", .height = "soft-height.png", .load = parallax_load, .samples = 8,
+         .measure = parallax_measure, WALL(1, "unless base_of_file says otherwise")},
         {"cylinder", "eight sides below the joint, 32 plain ones above (the paper's Figure 6)",
          .techniques = {PLAIN, PARALLAX, PER_PIXEL, ITERATED(4)},
          .views = {CYLINDER_CORNER, CYLINDER_FACE, ABOVE}, .colour = "uv-grid.png",
