@@ -267,7 +267,9 @@ static double bytes(const Exhibit *exhibit, bool mesh) {
 
 void exhibit_measure(const Shots *shots, Table *table) {
     add_silhouettes(shots, table);
-    if (shots_want(shots, NULL, "frames_per_second")) add_speed(shots, table);
-    bool mesh = shots->frame->technique->variant == EXHIBIT_MESH;
+    int variant = shots->frame->technique->variant;
+    bool mesh = variant == EXHIBIT_MESH;
+    if ((mesh || variant == EXHIBIT_ALL) && shots_want(shots, NULL, "frames_per_second"))
+        add_speed(shots, table);
     table_add(table, shots, NULL, "bytes", bytes(shots->frame->data, mesh), "bytes");
 }

@@ -19,7 +19,7 @@
     .prepare = exhibit_prepare
 #define FLAT {WARPED("flat", "each relief's colours as they lie on its face", EXHIBIT_FLAT)}
 #define RELIEF {WARPED("relief", "all six reliefs, warped onto the faces that the eye looks through", EXHIBIT_ALL), \
-                .knob = {"samples", {1, 2, 4}}}
+                .knob = {"samples", {1, 2}}}
 #define FRONT_ONLY {WARPED("front-only", "only the reliefs of the faces that the eye looks through", EXHIBIT_FRONTS)}
 #define NO_RIMS {WARPED("no-rims", "surfaces that end at their last texels", EXHIBIT_CELLS)}
 #define BRIDGED {WARPED("bridged", "all neighbours joined, over cliffs too", EXHIBIT_BRIDGED)}
