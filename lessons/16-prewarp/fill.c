@@ -20,13 +20,14 @@ enum {
     FOLDED = -3 /* perhaps some, by a cell that is not convex */
 };
 
-/* One line of eight cells: it covers columns first to end - 1, and `from` is the first one's origin. */
+/* One line of as many cells as there are lanes: it covers columns first to end - 1, and `from` is the first
+ * one's origin. */
 typedef struct {
     int first[LANES], end[LANES];
     Origin from[LANES];
 } Line;
 
-/* Eight cells of one row that may cover many texels. In each, lines run along the rows or, where they are
+/* As many cells of one row that may cover many texels. In each, lines run along the rows or, where they are
  * fewer, along the columns of its box; then x and y change places (turned). */
 typedef struct {
     float x00[LANES], x10[LANES], x11[LANES], x01[LANES], y00[LANES], y10[LANES], y11[LANES], y01[LANES];
@@ -59,14 +60,6 @@ typedef struct {
 /* Texels beyond a side that count as inside, so that rounding tears nothing. */
 static const float SLACK = 1e-4f, TINY = 1e-20f, FAR = 1e9f;
 
-/* Eight origins from eight u and eight v. */
-#define STORE_ORIGINS(u, v, to)                                                                              \
-    {                                                                                                        \
-        Ints half_ = __builtin_shufflevector(u, v, 0, 8, 1, 9, 2, 10, 3, 11);                                \
-        Ints other_ = __builtin_shufflevector(u, v, 4, 12, 5, 13, 6, 14, 7, 15);                             \
-        STORE(half_, to), STORE(other_, (to) + LANES / 2);                                                   \
-    }
-
 /* ---- What cells cover ---- */
 
 /* For each cell of a row: what it covers, and of one texel, where in the source that lies.
@@ -83,14 +76,16 @@ WIDE static void cells_sort(const Painter *painter) {
     const Floats right_edge = ALL((float)width), top_edge = ALL((float)height),
                  nowhere = ALL(LANDING_NOWHERE);
     const Floats zero = {0}, one = ALL(1.0f), tiny = ALL(TINY);
-    const float row = painter->row, rise = painter->next_row - painter->row;
-    for (int i = 0; i <= painter->below.count; i += LANES) {
+    const float row = painter->row, rise = painter->next_row - painter->row, *columns_u = painter->columns;
+    int *const covers_of = painter->covers, count = painter->below.count;
+    Origin *const from = painter->from;
+    for (int i = 0; i <= count; i += LANES) {
         Floats x00, x10, x11, x01, y00, y10, y11, y01, u, u_right;
         LOAD(x00, below_x + i - 1), LOAD(x10, below_x + i), LOAD(x01, above_x + i - 1),
             LOAD(x11, above_x + i);
         LOAD(y00, below_y + i - 1), LOAD(y10, below_y + i), LOAD(y01, above_y + i - 1),
             LOAD(y11, above_y + i);
-        LOAD(u, painter->columns + i - 1), LOAD(u_right, painter->columns + i);
+        LOAD(u, columns_u + i - 1), LOAD(u_right, columns_u + i);
         /* The box of centres from the corners' least coordinates up to but without their greatest. */
         Floats min0 = LEAST(x00, x10), min1 = LEAST(x01, x11), max0 = GREATEST(x00, x10),
                max1 = GREATEST(x01, x11);
@@ -120,13 +115,13 @@ WIDE static void cells_sort(const Painter *painter) {
         covers = (covers & single) | (MANY & ~single);
         covers = (covers & convex) | (FOLDED & ~convex);
         covers |= ~some;
-        STORE(covers, painter->covers + i);
+        STORE(covers, covers_of + i);
         Floats width_u = l + r, width_v = b + t;
         Floats s = l / GREATEST(width_u, tiny), v = b / GREATEST(width_v, tiny);
         s = GREATEST(s, zero), v = GREATEST(v, zero);
         s = LEAST(s, one), v = LEAST(v, one);
         Ints from_u = INTS_OF(u + (u_right - u) * s), from_v = INTS_OF(row + rise * v);
-        STORE_ORIGINS(from_u, from_v, painter->from + i);
+        STORE_PAIRS(from_u, from_v, from + i);
     }
 }
 
@@ -313,11 +308,11 @@ WIDE static void block_cut(const Block *block, Line *lines, int line_count, floa
         at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);
         Ints from_u = INTS_OF(at_u), from_v = INTS_OF(at_v);
         STORE(first, lines[n].first), STORE(end, lines[n].end);
-        STORE_ORIGINS(from_u, from_v, lines[n].from);
+        STORE_PAIRS(from_u, from_v, lines[n].from);
     }
 }
 
-/* Makes ready the first eight of count cells; where there are fewer, the first one again. */
+/* Makes ready the first of count cells, one a lane; where they are fewer than lanes, the first one again. */
 static void block_fill(const Painter *painter, const int *cells, int count) {
     const LandedRow *below = &painter->below, *above = &painter->above;
     Block *block = painter->block;
@@ -393,9 +388,9 @@ static void paint_by_depth(const Painter *painter, Run columns) {
 /* ---- From origins to texels ---- */
 
 typedef uint8_t Bytes __attribute__((vector_size(8)));
-typedef uint8_t TwoBytes __attribute__((vector_size(16)));
 typedef uint16_t Words __attribute__((vector_size(16)));
-typedef uint16_t TwoWords __attribute__((vector_size(32)));
+
+#define WORDS_OF(bytes) __builtin_convertvector(bytes, Words)
 
 /* a + (b - a) weight / 256, rounded; exact in 16 bits, which is what is left of the sum when it overflows. */
 #define MIX(a, b, weight) ((((a) << 8) + ((b) - (a)) * (weight) + 128) >> 8)
@@ -425,23 +420,21 @@ static void fetch_lookup(const Source *source, Origin origin, float *lookup) {
 }
 
 WIDE static void fetch_texels(const Source *source, size_t count, Texel *texels) {
+    const Texel *const all = source->texels;
     const size_t width = (size_t)source->width;
     const uint32_t inner_width = (uint32_t)source->width - 1, inner_height = (uint32_t)source->height - 1;
     for (size_t k = 0; k < count; k++) {
         Origin origin;
         memcpy(&origin, texels + k, sizeof origin);
-        uint32_t i = (uint32_t)(origin.u >> 8), j = (uint32_t)(origin.v >> 8);
+        const uint32_t i = (uint32_t)(origin.u >> 8), j = (uint32_t)(origin.v >> 8);
         if (i < inner_width && j < inner_height) {
-            const Texel *p = source->texels + j * width + i;
-            TwoBytes row_bytes, next_bytes;
-            LOAD(row_bytes, p), LOAD(next_bytes, p + width);
-            TwoWords row = __builtin_convertvector(row_bytes, TwoWords),
-                     next = __builtin_convertvector(next_bytes, TwoWords);
-            TwoWords mixed = MIX(row, next, (uint16_t)(origin.v & 255));
-            Words left = __builtin_shufflevector(mixed, mixed, 0, 1, 2, 3, 4, 5, 6, 7);
-            Words right = __builtin_shufflevector(mixed, mixed, 8, 9, 10, 11, 12, 13, 14, 15);
-            Words between = MIX(left, right, (uint16_t)(origin.u & 255));
-            Bytes bytes = __builtin_convertvector(between, Bytes);
+            const Texel *p = all + (j * width + i);
+            Bytes b00, b10, b01, b11;
+            LOAD(b00, p), LOAD(b10, p + 1), LOAD(b01, p + width), LOAD(b11, p + width + 1);
+            Words p00 = WORDS_OF(b00), p10 = WORDS_OF(b10), p01 = WORDS_OF(b01), p11 = WORDS_OF(b11);
+            const uint16_t s = origin.u & 255, t = origin.v & 255;
+            Words left = MIX(p00, p01, t), right = MIX(p10, p11, t);
+            Bytes bytes = __builtin_convertvector(MIX(left, right, s), Bytes);
             STORE(bytes, texels + k);
         } else
             texels[k] = origin.u == NOWHERE ? (Texel){0} : texel_at_edge(source, origin);

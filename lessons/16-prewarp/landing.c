@@ -59,8 +59,6 @@ static Texel texel_mean(Texel a, Texel b) {
 
 #define AWAY 0x1p20f /* where no destination reaches */
 
-typedef uint16_t Words __attribute__((vector_size(16)));
-
 static uint16_t level_mean(uint16_t a, uint16_t b) { return (uint16_t)((a + b + 1) / 2); }
 
 /* A row's texels and levels with both ends, from the source's row or from halfway between its first and last.
@@ -84,10 +82,10 @@ WIDE static void land(const Landing *landing, const LandedRow *row) {
     const Floats nowhere = ALL(LANDING_NOWHERE);
     const float y_row = k.y_v * row->v + k.y_0;
     for (int i = -1; i <= row->count; i += LANES) {
-        Words words;
+        Shorts levels;
         Floats u;
-        LOAD(words, row->levels + i), LOAD(u, row->u + i);
-        Floats l = __builtin_convertvector(words, Floats), w = k.w_0 + k.w_l * l, r = 1.0f / w;
+        LOAD(levels, row->levels + i), LOAD(u, row->u + i);
+        Floats l = FLOATS_OF(levels), w = k.w_0 + k.w_l * l, r = 1.0f / w;
         Floats x = (k.x_u * u + k.x_0 + k.x_l * l) * r, y = (y_row + k.y_l * l) * r;
         Ints somewhere = (w > (float)LANDING_W_MIN) & (x < AWAY) & (x > -AWAY) & (y < AWAY) & (y > -AWAY);
         x = PICK(somewhere, x, nowhere), y = PICK(somewhere, y, nowhere);

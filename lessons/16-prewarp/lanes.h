@@ -1,15 +1,28 @@
-/* Eight numbers at a time: the compiler's own vectors, which it turns into whatever SIMD the machine has.
- * What works on them are macros, for a function may not take so wide a vector where the machine has none. */
+/* Several numbers at a time: the compiler's own vectors, which it turns into the machine's SIMD. What works
+ * on them are macros, for a function may not take a vector wider than the machine surely has. */
 #ifndef LESSON_LANES_H
 #define LESSON_LANES_H
 
 #include <stdint.h>
 #include <string.h>
 
-enum { LANES = 8 };
+/* Eight where the program can choose as it starts between code for AVX2 and code for any x86-64 (WIDE asks
+ * for both), else four, which every machine has. */
+#ifdef __x86_64__
+#define LANES 8
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#define LOWER_HALVES 0, 8, 1, 9, 2, 10, 3, 11
+#define UPPER_HALVES 4, 12, 5, 13, 6, 14, 7, 15
+#else
+#define LANES 4
+#define WIDE
+#define LOWER_HALVES 0, 4, 1, 5
+#define UPPER_HALVES 2, 6, 3, 7
+#endif
 
-typedef float Floats __attribute__((vector_size(32)));
-typedef int32_t Ints __attribute__((vector_size(32)));
+typedef float Floats __attribute__((vector_size(4 * LANES)));
+typedef int32_t Ints __attribute__((vector_size(4 * LANES)));
+typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
 
 /* Comparisons make an Ints of -1 where they hold and 0 where not: `yes` in these. */
 #define PICK(yes, a, b) ((Floats)(((Ints)(a) & (yes)) | ((Ints)(b) & ~(yes))))
@@ -25,12 +38,12 @@ typedef int32_t Ints __attribute__((vector_size(32)));
 #define LOAD(vector, from) memcpy(&(vector), from, sizeof(vector))
 #define STORE(vector, to) memcpy(to, &(vector), sizeof(vector))
 
-/* A function compiled twice, for machines with AVX2 and for all others; the program takes the one it can run.
- */
-#ifdef __x86_64__
-#define WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define WIDE
-#endif
+/* The numbers of two vectors of Ints, one of each in turn. */
+#define STORE_PAIRS(a, b, to)                                                                                \
+    {                                                                                                        \
+        Ints lower_ = __builtin_shufflevector(a, b, LOWER_HALVES);                                           \
+        Ints upper_ = __builtin_shufflevector(a, b, UPPER_HALVES);                                           \
+        STORE(lower_, to), STORE(upper_, (char *)(to) + sizeof lower_);                                      \
+    }
 
 #endif
