@@ -71,7 +71,7 @@ static void check_box(const Box *box, const char *path) {
     }
 }
 
-void box_load(Box *box, const char *path, bool bridged) {
+void box_load(Box *box, const char *path, Walls walls) {
     *box = (Box){.texels = allocate(1, sizeof *box->texels), .texel_count = 1};
     for (int i = 0; i < FACES; i++) {
         char *own = path_of(path, i);
@@ -79,7 +79,7 @@ void box_load(Box *box, const char *path, bool bridged) {
         free(own);
     }
     check_box(box, path);
-    box_find_surfaces(box, bridged);
+    box_find_surfaces(box, walls);
 }
 
 void box_destroy(Box *box) {

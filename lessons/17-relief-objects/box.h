@@ -68,11 +68,15 @@ typedef struct {
     size_t texel_count;
 } Box;
 
+/* What becomes of steep walls between two neighbours: SHARED, the relief on the side has them if it sees them
+ * better; KEPT, each relief has its own, so that it can be shown alone; BRIDGED, whatever two neighbours are
+ * there is one surface, over cliffs too. */
+typedef enum { WALLS_SHARED, WALLS_KEPT, WALLS_BRIDGED } Walls;
+
 /* Reads six relief textures: path is that of the front's file, whose name holds "front"; the others' names
  * have theirs instead. Each has colour, and heights that are hollow, with base 1 and a basis; the six faces
- * bound a box. Two neighbours are one surface where their displacements differ by at most `bridge` times
- * their distance. Ends the program with a line that names the file otherwise. box_destroy frees it. */
-void box_load(Box *box, const char *path, bool bridged);
+ * bound a box. Ends the program with a line that names the file otherwise. box_destroy frees it. */
+void box_load(Box *box, const char *path, Walls walls);
 void box_destroy(Box *box);
 
 /* The faces of the box that an eye looks at the object through, in the order of `faces`: from outside the one
@@ -92,6 +96,6 @@ bool tile_faces_away(const Tile *tile, Eye eye);
 Vec3 face_point(const Face *face, double u, double v, double d);
 
 /* Makes cells, rims, normals and tiles of the faces' displacements: surface.c, called by box_load. */
-void box_find_surfaces(Box *box, bool bridged);
+void box_find_surfaces(Box *box, Walls walls);
 
 #endif

@@ -11,7 +11,7 @@
 enum { SAMPLES_USUAL = 2, MESH_SIDES = 128, SPEED_ROUNDS = 3, SPEED_VIEWS = 16 };
 
 typedef struct {
-    Box box, bridged; /* the latter loaded when first asked for: with all neighbours joined */
+    Box boxes[3]; /* by Walls; WALLS_SHARED always there, the others loaded when first asked for */
     Warp warp;
     Texture colours[FACES], normals[FACES];
     Shape faces[FACES]; /* the box's, to be textured */
@@ -78,8 +78,9 @@ static Shape face_shape(const Plane *plane) {
 static Exhibit *load(const Options *options, Mesh mesh) {
     Exhibit *exhibit = allocate(1, sizeof *exhibit);
     exhibit->path = text("%s", options->colour);
-    box_load(&exhibit->box, exhibit->path, false);
-    for (int i = 0; i < FACES; i++) exhibit->faces[i] = face_shape(&exhibit->box.faces[i].plane);
+    box_load(&exhibit->boxes[WALLS_SHARED], exhibit->path, WALLS_SHARED);
+    for (int i = 0; i < FACES; i++)
+        exhibit->faces[i] = face_shape(&exhibit->boxes[WALLS_SHARED].faces[i].plane);
     exhibit->mesh = mesh;
     exhibit->shape = shape_create(&mesh);
     exhibit_move(exhibit, 0.0);
@@ -109,8 +110,7 @@ static void destroy_warp(Exhibit *exhibit) {
 void exhibit_unload(void *data) {
     Exhibit *exhibit = data;
     destroy_warp(exhibit);
-    box_destroy(&exhibit->box);
-    box_destroy(&exhibit->bridged);
+    for (int i = 0; i < 3; i++) box_destroy(&exhibit->boxes[i]);
     for (int i = 0; i < FACES; i++) shape_destroy(&exhibit->faces[i]);
     shape_destroy(&exhibit->shape);
     if (exhibit->rays) mesh_rays_destroy(exhibit->rays);
@@ -165,16 +165,22 @@ static Parts parts_of(const Box *box, int variant, Eye eye) {
     return parts;
 }
 
+static const Box *box_for(Exhibit *exhibit, int variant) {
+    Walls walls = variant == EXHIBIT_BRIDGED  ? WALLS_BRIDGED
+                  : variant == EXHIBIT_FRONTS ? WALLS_KEPT
+                                              : WALLS_SHARED;
+    if (!exhibit->boxes[walls].texels) box_load(&exhibit->boxes[walls], exhibit->path, walls);
+    return &exhibit->boxes[walls];
+}
+
 void exhibit_prepare(const Frame *frame) {
     Exhibit *exhibit = frame->data;
     Warp *warp = &exhibit->warp;
     Eye eye = exhibit_eye(&frame->camera);
     int variant = frame->technique->variant, samples = frame->knob > 0.0 ? (int)frame->knob : SAMPLES_USUAL;
     if (samples != 1 && samples != 2 && samples != 4) fail("%g samples: there are 1, 2 or 4", frame->knob);
-    use_warp(exhibit, exhibit->box.faces[0].width, samples);
-    if (variant == EXHIBIT_BRIDGED && !exhibit->bridged.texels)
-        box_load(&exhibit->bridged, exhibit->path, true);
-    const Box *box = variant == EXHIBIT_BRIDGED ? &exhibit->bridged : &exhibit->box;
+    use_warp(exhibit, exhibit->boxes[WALLS_SHARED].faces[0].width, samples);
+    const Box *box = box_for(exhibit, variant);
     if (variant == EXHIBIT_FLAT)
         copy_flat(warp, box, eye);
     else
@@ -262,7 +268,7 @@ static void add_speed(const Shots *shots, Table *table) {
  * three floats of position and three of normal a vertex, and three indices a triangle, without any colour. */
 static double bytes(const Exhibit *exhibit, bool mesh) {
     if (mesh) return 24.0 * exhibit->mesh.vertex_count + 4.0 * exhibit->mesh.index_count;
-    return 5.0 * (double)(exhibit->box.texel_count - 1);
+    return 5.0 * (double)(exhibit->boxes[WALLS_SHARED].texel_count - 1);
 }
 
 void exhibit_measure(const Shots *shots, Table *table) {

@@ -23,8 +23,8 @@ static const double SMOOTH = 0.5;
 typedef struct {
     const Box *box;
     Face *face;
-    bool bridged; /* all neighbours are one surface */
-    int side[4];  /* the face of the box that lies each way */
+    Walls walls;
+    int side[4]; /* the face of the box that lies each way */
     int rim_room;
 } Finder;
 
@@ -62,8 +62,8 @@ static bool is_joined(const Finder *finder, int x, int y, int way) {
     int next_x = x + ways[way].x, next_y = y + ways[way].y;
     double here = displacement_at(face, x, y), next = displacement_at(face, next_x, next_y);
     double slope = fabs(next - here) / vec3_length(pitch(face, way));
-    if (finder->bridged || slope <= STEEP) return !isnan(slope);
-    if (!(slope <= STEEPEST)) return false;
+    if (finder->walls == WALLS_BRIDGED || slope <= STEEP) return !isnan(slope);
+    if (!(slope <= STEEPEST) || finder->walls == WALLS_KEPT) return slope <= STEEPEST;
     double middle = (here + next) / 2.0;
     return isnan(next < here ? place_from_side(finder, x, y, way, middle)
                              : place_from_side(finder, next_x, next_y, opposite(way), middle));
@@ -323,7 +323,7 @@ static void find_surfaces(Finder *finder) {
                 set_normal(face, x, y, &finder->box->texels[face->first + (size_t)y * face->width + x]);
 }
 
-void box_find_surfaces(Box *box, bool bridged) {
+void box_find_surfaces(Box *box, Walls walls) {
     for (int i = 0; i < FACES; i++)
-        find_surfaces(&(Finder){.box = box, .face = &box->faces[i], .bridged = bridged});
+        find_surfaces(&(Finder){.box = box, .face = &box->faces[i], .walls = walls});
 }

@@ -68,13 +68,13 @@ static void write_face(const char *folder, int face, bool empty) {
     image_destroy(&height);
 }
 
-static Box make_box(bool empty, bool bridged) {
+static Box make_box(bool empty, Walls walls) {
     char folder[] = "/tmp/texel-17-XXXXXX";
     assert_non_null(mkdtemp(folder));
     for (int i = 0; i < FACES; i++) write_face(folder, i, empty);
     char *front = text("%s/front.exr", folder);
     Box box;
-    box_load(&box, front, bridged);
+    box_load(&box, front, walls);
     free(front);
     for (int i = 0; i < FACES; i++) {
         char *path = text("%s/%s.exr", folder, face_names[i]);
@@ -103,7 +103,7 @@ static unsigned set_of(Seen seen) {
 /* From each of 26 directions the faces on whose side it is, near and infinitely far. */
 static void test_faces_seen(void **state) {
     (void)state;
-    Box box = make_box(true, false);
+    Box box = make_box(true, WALLS_SHARED);
     for (int x = -1; x <= 1; x++)
         for (int y = -1; y <= 1; y++)
             for (int z = -1; z <= 1; z++) {
@@ -183,7 +183,7 @@ static Tally check_eye(const Box *box, Warp *warp, Eye eye) {
  * is a rim away from its place, or be where no relief has seen. */
 static void test_against_rays(void **state) {
     (void)state;
-    Box box = make_box(false, false);
+    Box box = make_box(false, WALLS_SHARED);
     Warp warp = warp_create(SIZE, 1);
     Tally sum = {0};
     for (int n = 0; n < 40; n++) {
@@ -205,7 +205,7 @@ static void test_against_rays(void **state) {
 /* Eyes between the object and the box. */
 static void test_from_inside(void **state) {
     (void)state;
-    Box box = make_box(false, false);
+    Box box = make_box(false, WALLS_SHARED);
     Warp warp = warp_create(SIZE, 1);
     const Vec3 eyes[] = {{0.3, 0.6, 0.5}, {-0.9, -0.7, 0.5}, {-0.1, -0.2, -0.5}, {0.95, 0.75, 0.5}};
     Tally sum = {0};
@@ -226,7 +226,7 @@ static void test_from_inside(void **state) {
 
 static void test_hollow(void **state) {
     (void)state;
-    Box box = make_box(true, false);
+    Box box = make_box(true, WALLS_SHARED);
     Warp warp = warp_create(SIZE, 2);
     warp_box(&warp, &box, (Eye){{2, 3, 4}, 1}, (Parts){63, true});
     assert_int_equal(warp.count, 3);
@@ -251,7 +251,7 @@ static double covered_area(const Box *box, bool rims) {
 
 static void test_rims(void **state) {
     (void)state;
-    Box box = make_box(false, false);
+    Box box = make_box(false, WALLS_SHARED);
     int inside = 0;
     enum { RAYS = 1000 };
     for (int y = 0; y < RAYS; y++)
@@ -271,7 +271,7 @@ static void test_rims(void **state) {
 /* A tile that is passed over has no triangle that faces the eye. */
 static void test_tiles_face_away(void **state) {
     (void)state;
-    Box box = make_box(false, false);
+    Box box = make_box(false, WALLS_SHARED);
     int away = 0, total = 0;
     for (int n = 0; n < 30; n++) {
         Vec3 way = random_direction(), eye = vec3_scale(way, 2.5);
@@ -316,7 +316,7 @@ static void test_tiles_face_away(void **state) {
 /* All neighbours joined: no rims but at the border of what is there. */
 static void test_bridged(void **state) {
     (void)state;
-    Box box = make_box(false, false), bridged = make_box(false, true);
+    Box box = make_box(false, WALLS_SHARED), bridged = make_box(false, WALLS_BRIDGED);
     int cells[2] = {0};
     for (int f = 0; f < FACES; f++)
         for (int i = 0; i < (columns[f] - 1) * (rows[f] - 1); i++) {
