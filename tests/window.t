@@ -1,6 +1,7 @@
 #!/usr/bin/perl
 # The window, on a display in memory: its picture against the off-screen one, its keys by the names of what P
-# saves, and a shader that is broken and mended while it runs. All of it on a copy of lesson 14.
+# saves, and a shader that is broken and mended while it runs. All of it on a copy of lesson 14; and on one of
+# lesson 15, whose light moves by itself.
 use strict;
 use warnings;
 use Test::More;
@@ -22,8 +23,8 @@ END {
 
 # ---- A copy of what the lesson needs, so that the tree's own files stay as they are ----
 mkdir "$root/$_" or die "$root/$_: $!" foreach qw(build lessons);
-my @copied = ([qw(build/14-parallax build/libtexel.so build/libtexel-files.so)], "$root/build", ['common'], $root,
-    ['lessons/14-parallax'], "$root/lessons");
+my @copied = ([qw(build/14-parallax build/15-relief build/libtexel.so build/libtexel-files.so)], "$root/build", ['common'], $root,
+    [qw(lessons/14-parallax lessons/15-relief)], "$root/lessons");
 while (my ($from, $to) = splice @copied, 0, 2) { system('cp', '-R', @$from, $to) == 0 or die; }
 chomp(my $here = `pwd`);
 symlink "$here/build/assets", "$root/build/assets" or die;
@@ -177,5 +178,22 @@ press('Escape');
 my $ended = wait_for(sub { waitpid($window, 1) == $window });
 is($ended ? $? : 'not', 0, 'Escape closes the window, status 0') or diag content("$root/error");
 undef $window if $ended;
+
+# ---- What moves by itself: only between two presses of the space bar ----
+close $blocked;
+unlink $saved;
+$window = background("$root/out", "$root/error", "$root/build/15-relief", qw(--scene shadow --technique parallax --size 200x150));
+system(qw(timeout 15 xdotool search --sync --onlyvisible --name 15-relief mousemove 100 75)) == 0 or die;
+my $lit = 'shadow-30-parallax';
+sub lit { save($lit, @_) or return ''; return content("$saved/$lit.png") } # reading a PNG that was renamed into place
+my ($still, $again) = (lit(), lit());
+ok($still ne '' && $still eq $again, 'the light stands');
+press('space');
+ok(wait_for(sub { lit() ne $still }), 'space: it moves');
+press('space');
+my $stopped = lit();
+ok($stopped ne $still && $stopped eq lit(), 'space again: it stands elsewhere');
+press('Escape');
+ok(wait_for(sub { waitpid($window, 1) == $window }), 'Escape closes the window') and undef $window;
 
 done_testing();
