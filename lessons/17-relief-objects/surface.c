@@ -278,8 +278,8 @@ static void face_tile(const Face *face, Tile *tile, Spot (*triangles)[3], int co
     }
 }
 
-/* The cells from first up to end of a row or column of n cells. Those half beyond the image, of which only
- * rims can come, go with the first and the last tile. */
+/* The tile whose first cell is in that column and row, unless nothing is in it. The cells half beyond the
+ * image, of which only rims can come, go with the first and the last tile. */
 static void add_tile(Finder *finder, int column, int row) {
     Face *face = finder->face;
     int last_column = face->width - 1, last_row = face->height - 1;
