@@ -6,10 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Cells at most so far apart, across and up, are near. */
+/* Cells at most NEAR apart, across and up, are near; on sides of SIDE_LEAST none is near another in two ways.
+ */
 enum { NEAR = 2, SIDE_LEAST = 2 * NEAR + 2 };
 
-/* By how much of itself a slope may be too large, for a faster search. */
+/* By how much of itself a slope may be granted too large, so that fewer blocks need a closer look. */
 static const double GENEROSITY = 0.05;
 
 typedef struct {
@@ -118,8 +119,9 @@ static int gap(int i, int from, int to, int size) {
     return forward < backward ? forward : backward;
 }
 
-/* Does for the cells of one block of the pyramid. What all of it can need at most is granted unseen where
- * that is hardly more than what was found elsewhere; otherwise it is looked at more closely. */
+/* Widens the cone for the cells of one block of the pyramid. The most that any of them can need is granted
+ * unseen where that is hardly more than what was found elsewhere; otherwise the block is looked at more
+ * closely. */
 static void grant_block(const Job *job, Apex *apex, int level, int i, int j) {
     const Image *map = &job->corners, *tops = &job->pyramid.levels[level];
     int x0 = i << level, y0 = j << level, x1 = (i + 1) << level, y1 = (j + 1) << level;

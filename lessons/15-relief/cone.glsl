@@ -1,6 +1,6 @@
 // Cone stepping (Dummer 2006), with cones that hold for the interpolated surface (after Bán, Valasek, Bálint and Vad
 // 2024).
-#include "cells.glsl"
+#include "bilinear.glsl"
 
 // cone_map: for each cell the slope m, height a texel, of a cone that the surface nowhere rises above, wherever in the
 // cell's patch it stands. corner_map: the four heights of each cell.

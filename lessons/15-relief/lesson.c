@@ -27,8 +27,8 @@
      .variant = PYRAMID}
 #define MARCHES PARALLAX, STEEP, OCCLUSION, RELIEF, CONE, MAXIMUM
 
-/* ---- The views: orthographic, turned about y by an angle that so every ray has; the polygon fills them, and
- * their middle is low on a course of bricks, for a picture at 87 degrees is but 10 texels high ---- */
+/* ---- The views: orthographic, so that every ray has the angle by which the view is turned about y. The polygon
+ * fills them, and their middle is low on a course of bricks, for a picture at 87 degrees is but 10 texels high ---- */
 
 #define ORTHOGRAPHIC(x, z, picture_height) \
     {.eye = {x, 0.02, z}, .target = {0, 0.02, 0}, .up = {0, 1, 0}, .height = picture_height, .near = 0.1, .far = 20}

@@ -1,6 +1,6 @@
 // The maximum mip pyramid (Tevs, Ihrke, Seidel 2008): whole blocks of cells that the ray passes above are left behind
 // in one step.
-#include "cells.glsl"
+#include "bilinear.glsl"
 
 // pyramid_map: in level k, texel (i, j), the largest height in the block of 2^k x 2^k cells from (2^k i, 2^k j) on, as
 // far as the map goes. corner_map: the four heights of each cell.

@@ -100,7 +100,7 @@ void relief_draw(const Frame *frame) {
     maps_bind(&field->maps, frame->program);
     program_vector(frame->program, "light", field->light.x, field->light.y, field->light.z, 0);
     program_number(frame->program, "ambient", AMBIENT);
-    /* How much higher than the point the light's ray must be stopped: what the two searches may differ by. */
+    /* How much higher than the point the light must be stopped: more than the two searches err. */
     program_number(frame->program, "bias", 0.005);
     shape_draw(&field->wall.polygon);
 }
@@ -116,12 +116,11 @@ bool relief_is_lit(const Relief *relief, Vec3 light, double u, double v) {
     double h, width = relief->width, height = relief->width * relief->aspect;
     image_sample(relief->height, u, v, &h);
     double z = width * relief->scale * (h - relief->base);
-    /* The light's ray crosses the polygon at (x, y), which the relief's repetition moves into its rectangle.
-     */
+    /* Where the light's ray crosses the polygon, moved into its rectangle, for the relief repeats. */
     double x = (u - 0.5) * width - z * light.x / light.z, y = (v - 0.5) * height - z * light.y / light.z;
     x -= width * floor(x / width + 0.5), y -= height * floor(y / height + 0.5);
-    double far = 2.0 * width; /* above all of it, scale being at most 10 */
-    far += width * relief->scale / light.z;
+    /* The ray starts two widths before it comes to the relief's top, or to the polygon if that is higher. */
+    double top = width * relief->scale * fmax(1.0 - relief->base, 0.0), far = 2.0 * width + top / light.z;
     Ray ray = {vec3_add(v3(x, y, 0), vec3_scale(light, far)), vec3_scale(light, -1.0)};
     Sample met = truth_relief(relief, ray);
     return met.hit && met.depth > far - z / light.z - 1e-6 * width;

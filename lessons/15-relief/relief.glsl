@@ -55,15 +55,3 @@ float relief(sampler2D height_map, HeightRay ray, int steps, int binary_steps) {
     }
     return below;
 }
-
-// The unit normal of the surface at uv: of the bilinear patch between the four texel centres around it.
-vec3 patch_normal(sampler2D height_map, vec2 uv, float scale, float aspect) {
-    ivec2 size = textureSize(height_map, 0);
-    vec2 at = uv * vec2(size) - 0.5, corner = floor(at), inside = at - corner;
-    ivec2 low = ivec2(mod(corner, vec2(size))), high = ivec2(mod(corner + 1.0, vec2(size)));
-    float h00 = texelFetch(height_map, low, 0).x, h11 = texelFetch(height_map, high, 0).x;
-    float h10 = texelFetch(height_map, ivec2(high.x, low.y), 0).x;
-    float h01 = texelFetch(height_map, ivec2(low.x, high.y), 0).x;
-    vec2 slope = vec2(mix(h10 - h00, h11 - h01, inside.y), mix(h01 - h00, h11 - h10, inside.x)) * vec2(size);
-    return normalize(vec3(-scale * slope.x, -scale * slope.y / aspect, 1.0));
-}
