@@ -22,9 +22,7 @@ struct Figures {
 
 static double first_pass_loss(const Judge *judge, const Source *source, Eye eye, Destination *destination) {
     PrewarpFactors factors = prewarp_factors(&source->plane, eye);
-    size_t count = (size_t)destination->width * source->height;
-    float *kept = allocate(count, sizeof *kept);
-    for (size_t i = 0; i < count; i++) kept[i] = NAN; /* where the warp is not possible it writes nothing */
+    float *kept = allocate((size_t)destination->width * source->height, sizeof *kept);
     warp_two_pass(source, &factors, destination, kept);
     double loss = judge_first_pass_loss_percent(judge, eye, kept);
     free(kept);

@@ -210,7 +210,7 @@ static void widen(double k, double k3, Displacements d, double *low, double *hig
 }
 
 /* Outward to whole texels, with room for the rounding of a texel that lies on the border. */
-static double outward(double at, int texels, bool up) {
+static double round_outward(double at, int texels, bool up) {
     return up ? ceil(at * texels - 1e-9) / texels : floor(at * texels + 1e-9) / texels;
 }
 
@@ -224,8 +224,10 @@ Bounds overflow_bounds(const Source *source, const PrewarpFactors *factors, doub
                   v2(fmin(bounds.high.x, 1.0 + limit), fmin(bounds.high.y, 1.0 + limit)), true};
     cut.whole = cut.low.x == bounds.low.x && cut.low.y == bounds.low.y && cut.high.x == bounds.high.x &&
                 cut.high.y == bounds.high.y;
-    cut.low = v2(outward(cut.low.x, source->width, false), outward(cut.low.y, source->height, false));
-    cut.high = v2(outward(cut.high.x, source->width, true), outward(cut.high.y, source->height, true));
+    cut.low =
+        v2(round_outward(cut.low.x, source->width, false), round_outward(cut.low.y, source->height, false));
+    cut.high =
+        v2(round_outward(cut.high.x, source->width, true), round_outward(cut.high.y, source->height, true));
     return cut;
 }
 

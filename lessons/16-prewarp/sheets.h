@@ -4,9 +4,9 @@
  * A ray leaves the eye; seen along f, it leaves the eye's foot in the source image (the epipole) and moves
  * straight outward. What it meets first is nearest to the epipole. So texels are painted toward the epipole,
  * whose column and row divide the image into up to four sheets, each with one order for its columns and one
- * for its rows. That holds for an eye on either side of the plane: parallel projection has no centre that the
- * eye could be behind of. An eye infinitely far has its epipole infinitely far, in the direction of e's part
- * in the plane. */
+ * for its rows. That holds for an eye on either side of the plane: a parallel projection has no centre that
+ * the eye could be behind. An eye infinitely far has its epipole infinitely far, the way that the eye is when
+ * seen along f. */
 #ifndef LESSON_SHEETS_H
 #define LESSON_SHEETS_H
 
