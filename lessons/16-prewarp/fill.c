@@ -5,20 +5,29 @@
 
 #include <stdlib.h>
 
-/* Where a destination texel comes from, in 1/256 of a texel from the centre of the source's first one. It
- * takes the place of the texel itself until all cells are painted. */
-typedef struct {
-    int32_t u, v;
-} Origin;
+/* Where a destination texel comes from: its u and v in 1/65536 of the source, v in the upper half. */
+typedef uint32_t Origin;
 
-enum { NOWHERE = (int32_t)0x80808080, NOWHERE_BYTE = 0x80 };
+static const Origin NOWHERE = 0xffffffff; /* which rounds to no u and v of a cell: v ends at 65534 */
 
-/* What a cell covers: the number of the one destination texel, or one of these. */
+/* Which destination texel takes an origin: its number, or one of these. */
 enum {
-    NOTHING = -1,
-    MANY = -2,  /* perhaps more than one */
-    FOLDED = -3 /* perhaps some, by a cell that is not convex */
+    NOTHING = -1, /* painted like any other: there is room for it */
+    MANY = -2,    /* of the first choice: the cell may cover more texels than there are choices */
+    FOLDED = -3   /* of the first choice: perhaps some, but the cell is not convex */
 };
+
+/* As many cells of one row as there are lanes. Most cover one texel at most, few more than one of a row or
+ * column of two, few of those more than two of a box of four: these are the choices. */
+enum { CHOICES = 4 };
+enum { SOME = 1, MORE = 2, MOST = 4, ODD = 8 };
+
+typedef struct {
+    int at[CHOICES][LANES];
+    Origin from[CHOICES][LANES];
+    int kind; /* what some cell of it has: SOME at least a choice, MORE two, MOST four, ODD is MANY or FOLDED
+               */
+} Group;
 
 /* One line of as many cells as there are lanes: it covers columns first to end - 1, and `from` is the first
  * one's origin. */
@@ -50,19 +59,31 @@ typedef struct {
     LandedRow below, above;
     float *columns;      /* of the entries: their u as Origin has it */
     float row, next_row; /* of the rows below and above: their v */
-    int *covers;         /* of each cell */
-    Origin *from;        /* where the one texel that it covers comes from */
-    int *some, *many;    /* in the order of painting: cells that cover anything, and those that cover many */
+    Group *groups;       /* of the cells between these rows */
+    int *many;           /* in the order of painting: cells that cover many */
+    uint8_t *origins;    /* of each destination texel, four bytes */
     Block *block;
     Line *lines;
 } Painter;
 
 /* Texels beyond a side that count as inside, so that rounding tears nothing. */
-static const float SLACK = 1e-4f, TINY = 1e-20f, FAR = 1e9f;
+static const float SLACK = 1e-4f, FAR = 1e9f;
 
 /* ---- What cells cover ---- */
 
-/* For each cell of a row: what it covers, and of one texel, where in the source that lies.
+/* Choice n: the texel that many after the start, seen from which the sides' areas are b, r, t and l, if it
+ * lies in the cell. */
+#define CHOOSE(n, after, b, r, t, l, u, v, here)                                                             \
+    {                                                                                                        \
+        Ints inside = ((b) >= -SLACK) & ((r) >= -SLACK) & ((t) >= -SLACK) & ((l) >= -SLACK) & (here);        \
+        Ints at = (start + (after)) | ~inside; /* NOTHING is -1 */                                           \
+        Floats at_u = GREATEST(u, u_left), at_v = GREATEST(v, low_v);                                        \
+        at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);                                             \
+        Uints from = (Uints)INTS_OF(at_v) << 16 | (Uints)INTS_OF(at_u);                                      \
+        STORE(at, group->at[n]), STORE(from, group->from[n]);                                                \
+    }
+
+/* For each cell of a row: what it covers, and where in the source that lies.
  *
  * With a cell's corners seen from the texel's centre, the cross product of two that follow one another is
  * twice the area between that side and the centre, positive where the centre lies to the left of the side.
@@ -75,17 +96,16 @@ WIDE static void cells_sort(const Painter *painter) {
     const int width = painter->destination->width, height = painter->destination->height;
     const Floats right_edge = ALL((float)width), top_edge = ALL((float)height),
                  nowhere = ALL(LANDING_NOWHERE);
-    const Floats zero = {0}, one = ALL(1.0f), tiny = ALL(TINY);
-    const float row = painter->row, rise = painter->next_row - painter->row, *columns_u = painter->columns;
-    int *const covers_of = painter->covers, count = painter->below.count;
-    Origin *const from = painter->from;
-    for (int i = 0; i <= count; i += LANES) {
-        Floats x00, x10, x11, x01, y00, y10, y11, y01, u, u_right;
+    const Floats zero = {0}, low_v = ALL(painter->row), high_v = ALL(painter->next_row);
+    const float rise = painter->next_row - painter->row, *columns_u = painter->columns;
+    const int count = painter->below.count;
+    Group *group = painter->groups;
+    for (int i = 0; i <= count; i += LANES, group++) {
+        Floats x00, x10, x11, x01, y00, y10, y11, y01, u_left, u_right;
         LOAD(x00, below_x + i - 1), LOAD(x10, below_x + i), LOAD(x01, above_x + i - 1),
             LOAD(x11, above_x + i);
         LOAD(y00, below_y + i - 1), LOAD(y10, below_y + i), LOAD(y01, above_y + i - 1),
             LOAD(y11, above_y + i);
-        LOAD(u, columns_u + i - 1), LOAD(u_right, columns_u + i);
         /* The box of centres from the corners' least coordinates up to but without their greatest. */
         Floats min0 = LEAST(x00, x10), min1 = LEAST(x01, x11), max0 = GREATEST(x00, x10),
                max1 = GREATEST(x01, x11);
@@ -99,6 +119,8 @@ WIDE static void cells_sort(const Painter *painter) {
         bottom = LEAST(bottom, top_edge);
         Ints column = CEIL(left), columns = CEIL(right) - column, first_row = CEIL(bottom),
              rows = CEIL(top) - first_row;
+        Ints some = (columns > 0) & (rows > 0) & somewhere;
+        LOAD(u_left, columns_u + i - 1), LOAD(u_right, columns_u + i);
         Floats x = FLOATS_OF(column), y = FLOATS_OF(first_row);
         x00 -= x, x10 -= x, x11 -= x, x01 -= x, y00 -= y, y10 -= y, y11 -= y, y01 -= y;
         Floats b = x00 * y10 - y00 * x10, r = x10 * y11 - y10 * x11, t = x11 * y01 - y11 * x01,
@@ -106,41 +128,83 @@ WIDE static void cells_sort(const Painter *painter) {
         Floats d = x11 * y00 - y11 * x00, e = x10 * y01 - y10 * x01;
         /* The four triangles of three corners: all turn left in a convex cell, none in one turned over. */
         Floats t0 = b + r + d, t1 = t + l - d, t2 = b + l + e, t3 = r + t - e;
-        Ints front = (t0 > zero) | (t1 > zero) | (t2 > zero) | (t3 > zero),
-             convex = (t0 > zero) & (t1 > zero) & (t2 > zero) & (t3 > zero);
-        Floats least0 = LEAST(b, r), least1 = LEAST(t, l);
-        Ints inside = (least0 >= -SLACK) & (least1 >= -SLACK);
-        Ints some = (columns > 0) & (rows > 0) & front & somewhere, single = (columns == 1) & (rows == 1);
-        Ints covers = (first_row * width + column) | ~inside; /* NOTHING is -1 */
-        covers = (covers & single) | (MANY & ~single);
-        covers = (covers & convex) | (FOLDED & ~convex);
-        covers |= ~some;
-        STORE(covers, covers_of + i);
-        Floats width_u = l + r, width_v = b + t;
-        Floats s = l / GREATEST(width_u, tiny), v = b / GREATEST(width_v, tiny);
-        s = GREATEST(s, zero), v = GREATEST(v, zero);
-        s = LEAST(s, one), v = LEAST(v, one);
-        Ints from_u = INTS_OF(u + (u_right - u) * s), from_v = INTS_OF(row + rise * v);
-        STORE_PAIRS(from_u, from_v, from + i);
+        some &= (t0 > zero) | (t1 > zero) | (t2 > zero) | (t3 > zero);
+        Ints convex = (t0 > zero) & (t1 > zero) & (t2 > zero) & (t3 > zero);
+        Ints wider = columns > 1, higher = rows > 1, easy = some & convex & (columns <= 2) & (rows <= 2);
+        Ints more = easy & (wider | higher), most = easy & wider & higher, odd = some & ~easy;
+        Ints kinds = (some & SOME) | (more & MORE) | (most & MOST) | (odd & ODD);
+        const int kind = group->kind = (int)EITHER(kinds);
+        if (!kind) continue;
+        Ints start = first_row * width + column;
+        Floats b_x = x10 - x00, r_x = x11 - x10, t_x = x01 - x11, l_x = x00 - x01;
+        Floats b_y = y10 - y00, r_y = y11 - y10, t_y = y01 - y11, l_y = y00 - y01;
+        /* u and v of the parallelogram nearest to the cell: linear. */
+        Floats area = b + r + t + l, share = 1.0f / area, u_r = (u_right - u_left) * share,
+               v_r = rise * share;
+        Floats u_x = (r_y - l_y) * u_r, u_y = (l_x - r_x) * u_r;
+        Floats v_x = (t_y - b_y) * v_r, v_y = (b_x - t_x) * v_r;
+        Floats x_c = 0.25f * (x00 + x10 + x11 + x01), y_c = 0.25f * (y00 + y10 + y11 + y01);
+        Floats u_0 = 0.5f * (u_left + u_right) - x_c * u_x - y_c * u_y;
+        Floats v_0 = 0.5f * (low_v + high_v) - x_c * v_x - y_c * v_y;
+        CHOOSE(0, 0, b, r, t, l, u_0, v_0, easy)
+        if (kind & MORE) {
+            Ints after = (wider & 1) | (~wider & width);
+            Floats b_1 = b + PICK(wider, -b_y, b_x), r_1 = r + PICK(wider, -r_y, r_x);
+            Floats t_1 = t + PICK(wider, -t_y, t_x), l_1 = l + PICK(wider, -l_y, l_x);
+            Floats u_1 = u_0 + PICK(wider, u_x, u_y), v_1 = v_0 + PICK(wider, v_x, v_y);
+            CHOOSE(1, after, b_1, r_1, t_1, l_1, u_1, v_1, more)
+            if (kind & MOST) {
+                b += b_x, r += r_x, t += t_x, l += l_x, u_0 += u_y, v_0 += v_y;
+                CHOOSE(2, width, b, r, t, l, u_0, v_0, most)
+                b -= b_y, r -= r_y, t -= t_y, l -= l_y, u_0 += u_x, v_0 += v_x;
+                CHOOSE(3, width + 1, b, r, t, l, u_0, v_0, most)
+            }
+        }
+        if (kind & ODD) {
+            Ints at, name = (MANY & convex) | (FOLDED & ~convex);
+            LOAD(at, group->at[0]);
+            at = (name & odd) | (at & ~odd);
+            STORE(at, group->at[0]);
+        }
     }
 }
 
 /* ---- Painting ---- */
 
+/* A number of 1/65536 of an axis of so many texels, in 1/65536 of a texel from the first one's centre. */
+static inline int from_centre(uint32_t share, int texels) { return (int)share * texels - 32768; }
+
+/* Where an origin lies: between texels column and right of rows row and above, and so many 1/256 on. The
+ * image repeats. */
+typedef struct {
+    int column, right, row, above, s, t;
+} Place;
+
+static Place place_of(const Source *source, Origin origin) {
+    int width = source->width, height = source->height;
+    int u = from_centre(origin & 65535, width), v = from_centre(origin >> 16, height);
+    int i = (u >> 16) + width, j = (v >> 16) + height;
+    return (Place){.column = i % width,
+                   .right = (i + 1) % width,
+                   .row = j % height,
+                   .above = (j + 1) % height,
+                   .s = u >> 8 & 255,
+                   .t = v >> 8 & 255};
+}
+
 /* The source's level at an origin, bilinear. */
 static float level_at(const Source *source, Origin origin) {
-    int width = source->width, height = source->height;
-    int i = (origin.u >> 8) + width, j = (origin.v >> 8) + height; /* from -1 up: the image repeats */
-    const uint16_t *row = source->levels + (size_t)(j % height) * width;
-    const uint16_t *next = source->levels + (size_t)((j + 1) % height) * width;
-    float s = (float)(origin.u & 255) / 256, t = (float)(origin.v & 255) / 256;
-    float below = row[i % width] + s * (float)(row[(i + 1) % width] - row[i % width]);
-    float above = next[i % width] + s * (float)(next[(i + 1) % width] - next[i % width]);
+    Place p = place_of(source, origin);
+    const uint16_t *row = source->levels + (size_t)p.row * source->width;
+    const uint16_t *next = source->levels + (size_t)p.above * source->width;
+    float s = (float)p.s / 256, t = (float)p.t / 256;
+    float below = row[p.column] + s * (float)(row[p.right] - row[p.column]);
+    float above = next[p.column] + s * (float)(next[p.right] - next[p.column]);
     return below + t * (above - below);
 }
 
 /* Whether the depth buffer lets an origin through. */
-static bool is_nearest(const Painter *painter, size_t at, Origin origin) {
+static bool is_nearest(const Painter *painter, ptrdiff_t at, Origin origin) {
     float level = level_at(painter->source, origin);
     uint32_t depth = (uint32_t)(16 * (painter->behind ? level : 65535 - level));
     if (depth >= painter->nearest[at]) return false;
@@ -151,14 +215,17 @@ static bool is_nearest(const Painter *painter, size_t at, Origin origin) {
 /* Where to, and whether past a depth buffer: known where it is compiled, so that the order pays nothing for
  * it. */
 typedef struct {
-    Texel *texels;
+    uint8_t *origins;
     bool deep;
 } Target;
 
-static inline void put(const Painter *painter, Target target, size_t at, Origin origin) {
-    if (target.deep && !is_nearest(painter, at, origin)) return;
-    memcpy(target.texels + at, &origin, sizeof origin);
+static inline __attribute__((always_inline)) void put(const Painter *painter, Target target, ptrdiff_t at,
+                                                      Origin origin) {
+    if (target.deep && (at < 0 || !is_nearest(painter, at, origin))) return;
+    memcpy(target.origins + at * (ptrdiff_t)sizeof origin, &origin, sizeof origin);
 }
+
+static inline Origin origin_of(float u, float v) { return (uint32_t)(int)v << 16 | (uint32_t)(int)u; }
 
 static inline float least(float a, float b) { return a < b ? a : b; }
 static inline float greatest(float a, float b) { return a > b ? a : b; }
@@ -175,20 +242,20 @@ static inline Point corner(const LandedRow *row, int i, int x, int y) {
     return (Point){row->x[i] - (float)x, row->y[i] - (float)y};
 }
 
-static void put_at(const Painter *painter, size_t at, int i, float s, float t) {
+static void put_at(const Painter *painter, ptrdiff_t at, int i, float s, float t) {
     const float *u = painter->columns;
-    Target target = {painter->destination->texels, painter->nearest != NULL};
+    Target target = {painter->origins, painter->nearest != NULL};
     put(painter, target, at,
-        (Origin){(int)(u[i - 1] + (u[i] - u[i - 1]) * between(s, 0, 1)),
-                 (int)(painter->row + (painter->next_row - painter->row) * between(t, 0, 1))});
+        origin_of(u[i - 1] + (u[i] - u[i - 1]) * between(s, 0, 1),
+                  painter->row + (painter->next_row - painter->row) * between(t, 0, 1)));
 }
 
 /* Whether nothing lies farther away there; in the order, for the depth buffer cannot know yet. */
-static bool is_empty(const Painter *painter, size_t at) {
+static bool is_empty(const Painter *painter, ptrdiff_t at) {
     if (painter->nearest) return false;
     Origin origin;
-    memcpy(&origin, painter->destination->texels + at, sizeof origin);
-    return origin.u == NOWHERE;
+    memcpy(&origin, painter->origins + at * (ptrdiff_t)sizeof origin, sizeof origin);
+    return origin == NOWHERE;
 }
 
 /* A cell that is not convex, or turned over in part, centre by centre: few cells are. It is taken for the
@@ -210,7 +277,7 @@ static void paint_folded(const Painter *painter, int i) {
             float b = cross(p00, p10), r = cross(p10, p11), t = cross(p11, p01), l = cross(p01, p00);
             float d = cross(p11, p00), e = cross(p10, p01), near = -SLACK;
             float t0 = b + r + d, t1 = t + l - d, t2 = b + l + e, t3 = r + t - e;
-            size_t at = (size_t)y * width + x;
+            ptrdiff_t at = (ptrdiff_t)y * width + x;
             if (t0 > 0 && b >= near && r >= near && d >= near)
                 put_at(painter, at, i, 1 - r / t0, b / t0);
             else if (t1 > 0 && t >= near && l >= near && -d >= near)
@@ -306,9 +373,8 @@ WIDE static void block_cut(const Block *block, Line *lines, int line_count, floa
         Floats x = FLOATS_OF(first), at_u = u + u_x * x + u_y * y, at_v = v + v_x * x + v_y * y;
         at_u = GREATEST(at_u, u_left), at_v = GREATEST(at_v, low_v);
         at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);
-        Ints from_u = INTS_OF(at_u), from_v = INTS_OF(at_v);
-        STORE(first, lines[n].first), STORE(end, lines[n].end);
-        STORE_PAIRS(from_u, from_v, lines[n].from);
+        Uints from_uv = (Uints)INTS_OF(at_v) << 16 | (Uints)INTS_OF(at_u);
+        STORE(first, lines[n].first), STORE(end, lines[n].end), STORE(from_uv, lines[n].from);
     }
 }
 
@@ -332,17 +398,16 @@ static void block_fill(const Painter *painter, const int *cells, int count) {
 }
 
 /* Cell k of the block. */
-static inline void paint_many(const Painter *painter, Target target, int k) {
+static inline __attribute__((always_inline)) void paint_many(const Painter *painter, Target target, int k) {
     const Block *block = painter->block;
-    size_t width = (size_t)painter->destination->width;
-    size_t column_step = block->turned[k] ? width : 1, row_step = block->turned[k] ? 1 : width;
-    size_t start = (size_t)block->start[k];
+    ptrdiff_t width = painter->destination->width;
+    ptrdiff_t column_step = block->turned[k] ? width : 1, row_step = block->turned[k] ? 1 : width;
+    ptrdiff_t start = block->start[k];
     const Line *line = painter->lines, *end_line = line + block->lines[k];
     for (; line < end_line; line++, start += row_step) {
         int x = line->first[k], end = line->end[k];
-        if (x >= end) continue;
-        size_t at = start + (size_t)x * column_step;
-        put(painter, target, at, line->from[k]);
+        ptrdiff_t at = start + x * column_step;
+        put(painter, target, x < end ? at : NOTHING, line->from[k]);
         if (++x >= end) continue;
         float y = (float)(line - painter->lines), u = block->u_0[k] + block->u_y[k] * y,
               v = block->v_0[k] + block->v_y[k] * y;
@@ -350,104 +415,179 @@ static inline void paint_many(const Painter *painter, Target target, int k) {
             at += column_step;
             float at_u = between(u + block->u_x[k] * (float)x, block->u_left[k], block->u_right[k]);
             float at_v = between(v + block->v_x[k] * (float)x, painter->row, painter->next_row);
-            put(painter, target, at, (Origin){(int)at_u, (int)at_v});
+            put(painter, target, at, origin_of(at_u, at_v));
         }
     }
 }
 
-static inline void paint_cells(const Painter *painter, Run columns, Target target) {
-    const int *covers = painter->covers;
-    const Origin *from = painter->from;
-    int *some = painter->some, *many = painter->many, some_count = 0, many_count = 0;
-    for (int i = columns.first; i != columns.end; i += columns.step) {
-        some[some_count] = many[many_count] = i;
-        some_count += covers[i] != NOTHING;
-        many_count += covers[i] == MANY;
+/* The part of a run in group g. */
+static inline Run run_within(Run run, int g) {
+    int low = run.step > 0 ? run.first : run.end + 1, high = run.step > 0 ? run.end : run.first + 1;
+    low = low < g * LANES ? 0 : low - g * LANES, high = high > (g + 1) * LANES ? LANES : high - g * LANES;
+    return run.step > 0 ? (Run){low, high, 1} : (Run){high - 1, low - 1, -1};
+}
+
+static int list_many(const Painter *painter, Run columns, int first, int end, int step) {
+    int count = 0;
+    for (int g = first; g != end; g += step) {
+        if (!(painter->groups[g].kind & ODD)) continue;
+        Run run = run_within(columns, g);
+        for (int k = run.first; k != run.end; k += run.step) {
+            painter->many[count] = g * LANES + k;
+            count += painter->groups[g].at[0][k] == MANY;
+        }
     }
-    int used = 0;
-    for (int n = 0; n < some_count; n++) {
-        int i = some[n], cover = covers[i];
-        if (cover >= 0)
-            put(painter, target, (size_t)cover, from[i]);
-        else if (cover == MANY) {
-            if (used % LANES == 0) block_fill(painter, many + used, many_count - used);
-            paint_many(painter, target, used++ % LANES);
-        } else
-            paint_folded(painter, i);
+    return count;
+}
+
+static inline __attribute__((always_inline)) void paint_choices(const Painter *painter, const Group *group,
+                                                                Run run, int choices, Target target) {
+    for (int k = run.first; k != run.end; k += run.step)
+        for (int n = 0; n < choices; n++) put(painter, target, group->at[n][k], group->from[n][k]);
+}
+
+static inline __attribute__((always_inline)) void paint_cells(const Painter *painter, Run columns,
+                                                              Target target) {
+    if (columns.first == columns.end) return;
+    int step = columns.step, first = columns.first / LANES, end = (columns.end - step) / LANES + step;
+    int many_count = list_many(painter, columns, first, end, step), used = 0;
+    for (int g = first; g != end; g += step) {
+        const Group *group = painter->groups + g;
+        if (!group->kind) continue;
+        Run run = run_within(columns, g);
+        if (group->kind & ODD)
+            for (int k = run.first; k != run.end; k += run.step) {
+                if (group->at[0][k] == MANY) {
+                    if (used % LANES == 0) block_fill(painter, painter->many + used, many_count - used);
+                    paint_many(painter, target, used++ % LANES);
+                } else if (group->at[0][k] == FOLDED)
+                    paint_folded(painter, g * LANES + k);
+                else
+                    paint_choices(painter, group, (Run){k, k + 1, 1},
+                                  group->kind & MOST   ? CHOICES
+                                  : group->kind & MORE ? 2
+                                                       : 1,
+                                  target);
+            }
+        else if (group->kind & MOST)
+            paint_choices(painter, group, run, CHOICES, target);
+        else if (group->kind & MORE)
+            paint_choices(painter, group, run, 2, target);
+        else
+            paint_choices(painter, group, run, 1, target);
     }
 }
 
 static void paint_in_order(const Painter *painter, Run columns) {
-    paint_cells(painter, columns, (Target){painter->destination->texels, false});
+    paint_cells(painter, columns, (Target){painter->origins, false});
 }
 
 static void paint_by_depth(const Painter *painter, Run columns) {
-    paint_cells(painter, columns, (Target){painter->destination->texels, true});
+    paint_cells(painter, columns, (Target){painter->origins, true});
 }
 
 /* ---- From origins to texels ---- */
 
-typedef uint8_t Bytes __attribute__((vector_size(8)));
-typedef uint16_t Words __attribute__((vector_size(16)));
+/* Two times two texels that are neighbours in a row, byte by byte or two bytes a word. */
+typedef uint16_t Words __attribute__((vector_size(32)));
+typedef uint64_t Pair __attribute__((vector_size(16)));
+typedef uint64_t Longs __attribute__((vector_size(32)));
 
-#define WORDS_OF(bytes) __builtin_convertvector(bytes, Words)
+/* (1 - weight / 256) a + weight / 256 b, rounded: exact in 16 bits. */
+#define MIX(a, b, weight) (((a) * (256 - (weight)) + (b) * (weight) + 128) >> 8)
 
-/* a + (b - a) weight / 256, rounded; exact in 16 bits, which is what is left of the sum when it overflows. */
-#define MIX(a, b, weight) ((((a) << 8) + ((b) - (a)) * (weight) + 128) >> 8)
-
-/* The same at the edges, where the image repeats. */
-static Texel texel_at_edge(const Source *source, Origin origin) {
-    int width = source->width, height = source->height;
-    int i = (origin.u >> 8) + width, j = (origin.v >> 8) + height, s = origin.u & 255, t = origin.v & 255;
-    const Texel *row = source->texels + (size_t)(j % height) * width;
-    const Texel *next = source->texels + (size_t)((j + 1) % height) * width;
-    const uint8_t *p00 = row[i % width].colour, *p10 = row[(i + 1) % width].colour;
-    const uint8_t *p01 = next[i % width].colour, *p11 = next[(i + 1) % width].colour;
-    Texel texel;
+/* The texel at an origin, wherever that lies. */
+static Texel texel_at(const Source *source, Origin origin) {
+    Texel texel = {0};
+    if (origin == NOWHERE) return texel;
+    Place p = place_of(source, origin);
+    const Texel *row = source->texels + (size_t)p.row * source->width;
+    const Texel *next = source->texels + (size_t)p.above * source->width;
+    const uint8_t *p00 = row[p.column].colour, *p10 = row[p.right].colour;
+    const uint8_t *p01 = next[p.column].colour, *p11 = next[p.right].colour;
     uint8_t *bytes = (uint8_t *)&texel;
-    for (int c = 0; c < 8; c++) {
-        int left = (p00[c] * (256 - t) + p01[c] * t + 128) >> 8,
-            right = (p10[c] * (256 - t) + p11[c] * t + 128) >> 8;
-        bytes[c] = (uint8_t)((left * (256 - s) + right * s + 128) >> 8);
-    }
+    for (int c = 0; c < 8; c++)
+        bytes[c] = (uint8_t)MIX(MIX(p00[c], p01[c], p.t), MIX(p10[c], p11[c], p.t), p.s);
     return texel;
 }
 
 static void fetch_lookup(const Source *source, Origin origin, float *lookup) {
-    lookup[0] = ((float)origin.u / 256 + 0.5f) / (float)source->width;
-    lookup[1] = ((float)origin.v / 256 + 0.5f) / (float)source->height;
+    lookup[0] = (float)(origin & 65535) / 65536;
+    lookup[1] = (float)(origin >> 16) / 65536;
     lookup[2] = level_at(source, origin) / 65535;
 }
 
-WIDE static void fetch_texels(const Source *source, size_t count, Texel *texels) {
-    const Texel *const all = source->texels;
-    const size_t width = (size_t)source->width;
-    const uint32_t inner_width = (uint32_t)source->width - 1, inner_height = (uint32_t)source->height - 1;
-    for (size_t k = 0; k < count; k++) {
+/* A word is two bytes of a texel; both are mixed at once, each in a vector of its own. */
+#define LOW(words) ((words)&255)
+#define HIGH(words) ((words) >> 8)
+
+/* Texels `first` and `second` of a block, each with its right neighbour, mixed with those above by t: the
+ * even bytes and the odd ones. */
+#define MIX_ROWS(even, odd, first, second)                                                                   \
+    {                                                                                                        \
+        const Texel *p_ = source->texels + index[first], *q_ = source->texels + index[second];               \
+        Pair p0_, p1_, q0_, q1_;                                                                             \
+        LOAD(p0_, p_), LOAD(q0_, q_), LOAD(p1_, p_ + width), LOAD(q1_, q_ + width);                          \
+        Words a_ = (Words)__builtin_shufflevector(p0_, q0_, 0, 1, 2, 3),                                     \
+              b_ = (Words)__builtin_shufflevector(p1_, q1_, 0, 1, 2, 3);                                     \
+        Words t_ = (Words)__builtin_shufflevector(t, t, first, first, first, first, second, second, second,  \
+                                                  second);                                                   \
+        even = MIX(LOW(a_), LOW(b_), t_), odd = MIX(HIGH(a_), HIGH(b_), t_);                                 \
+    }
+
+/* Texels first to first + 3 of a block. */
+#define FETCH_FOUR(first)                                                                                    \
+    {                                                                                                        \
+        Words even0, even1, odd0, odd1;                                                                      \
+        MIX_ROWS(even0, odd0, first, first + 2)                                                              \
+        MIX_ROWS(even1, odd1, first + 1, first + 3)                                                          \
+        Words s_ = (Words)__builtin_shufflevector(s, s, first, first, first + 1, first + 1, first + 2,       \
+                                                  first + 2, first + 3, first + 3);                          \
+        Words even = MIX(LEFT(even0, even1), RIGHT(even0, even1), s_);                                       \
+        Words odd = MIX(LEFT(odd0, odd1), RIGHT(odd0, odd1), s_);                                            \
+        Words both = even | odd << 8;                                                                        \
+        STORE(both, texels + n + (first));                                                                   \
+    }
+#define LEFT(a, b) ((Words)__builtin_shufflevector((Longs)(a), (Longs)(b), 0, 4, 2, 6))
+#define RIGHT(a, b) ((Words)__builtin_shufflevector((Longs)(a), (Longs)(b), 1, 5, 3, 7))
+
+WIDE static void fetch_texels(const Source *source, const uint8_t *origins, size_t count, Texel *texels) {
+    const int width = source->width, height = source->height;
+    size_t n = 0, even = width > 1 && height > 1 ? count / LANES * LANES : 0;
+    for (; n < even; n += LANES) {
+        Uints origin;
+        LOAD(origin, origins + n * sizeof(Origin));
+        Ints x = (Ints)(origin & 65535) * width - 32768, y = (Ints)(origin >> 16) * height - 32768;
+        Ints i = x >> 16, j = y >> 16;
+        Ints edge = ((Uints)i >= (uint32_t)(width - 1)) | ((Uints)j >= (uint32_t)(height - 1));
+        Ints nowhere = origin == NOWHERE;
+        if (ANY(edge) && ALL_OF(nowhere)) {
+            memset(texels + n, 0, LANES * sizeof *texels);
+            continue;
+        }
+        Ints at = (j * width + i) & ~edge;
+        int index[LANES];
+        STORE(at, index);
+        x = x >> 8 & 255, y = y >> 8 & 255;
+        Ints s = x | x << 16, t = y | y << 16;
+        FETCH_FOUR(0)
+        FETCH_FOUR(4)
+        if (ANY(edge))
+            for (int k = 0; k < LANES; k++)
+                if (edge[k]) texels[n + k] = texel_at(source, origin[k]);
+    }
+    for (; n < count; n++) {
         Origin origin;
-        memcpy(&origin, texels + k, sizeof origin);
-        const uint32_t i = (uint32_t)(origin.u >> 8), j = (uint32_t)(origin.v >> 8);
-        if (i < inner_width && j < inner_height) {
-            const Texel *p = all + (j * width + i);
-            Bytes b00, b10, b01, b11;
-            LOAD(b00, p), LOAD(b10, p + 1), LOAD(b01, p + width), LOAD(b11, p + width + 1);
-            Words p00 = WORDS_OF(b00), p10 = WORDS_OF(b10), p01 = WORDS_OF(b01), p11 = WORDS_OF(b11);
-            const uint16_t s = origin.u & 255, t = origin.v & 255;
-            Words left = MIX(p00, p01, t), right = MIX(p10, p11, t);
-            Bytes bytes = __builtin_convertvector(MIX(left, right, s), Bytes);
-            STORE(bytes, texels + k);
-        } else
-            texels[k] = origin.u == NOWHERE ? (Texel){0} : texel_at_edge(source, origin);
+        memcpy(&origin, origins + n * sizeof origin, sizeof origin);
+        texels[n] = texel_at(source, origin);
     }
 }
 
-static void fetch_lookups(const Source *source, const Destination *destination) {
-    size_t count = (size_t)destination->width * destination->height;
-    for (size_t k = 0; k < count; k++) {
-        float *lookup = destination->lookup + 3 * k;
+static void fetch_lookups(const Source *source, const uint8_t *origins, size_t count, float *lookup) {
+    for (size_t n = 0; n < count; n++, lookup += 3) {
         Origin origin;
-        memcpy(&origin, destination->texels + k, sizeof origin);
-        if (origin.u == NOWHERE)
+        memcpy(&origin, origins + n * sizeof origin, sizeof origin);
+        if (origin == NOWHERE)
             lookup[0] = lookup[1] = lookup[2] = 0;
         else
             fetch_lookup(source, origin, lookup);
@@ -473,10 +613,9 @@ static Painter painter_create(const Source *source, const PrewarpFactors *factor
     painter.above = landed_row_create(source->width);
     painter.columns = (float *)allocate(cells + 1, sizeof(float)) + 1;
     for (int i = -1; i <= source->width; i++)
-        painter.columns[i] = 256 * ((float)source->width * painter.below.u[i] - 0.5f);
-    painter.covers = allocate(cells, sizeof *painter.covers);
-    painter.from = allocate(cells, sizeof *painter.from);
-    painter.some = allocate(cells, sizeof *painter.some);
+        painter.columns[i] = least(65536 * painter.below.u[i] + 0.5f, 65535);
+    painter.origins = (uint8_t *)destination->texels + texels * sizeof(Origin);
+    painter.groups = allocate(cells / LANES, sizeof *painter.groups);
     painter.many = allocate(cells, sizeof *painter.many);
     painter.block = allocate(1, sizeof *painter.block);
     painter.lines = allocate(
@@ -493,9 +632,7 @@ static void painter_destroy(Painter *painter) {
     landed_row_destroy(&painter->below);
     landed_row_destroy(&painter->above);
     free(painter->columns - 1);
-    free(painter->covers);
-    free(painter->from);
-    free(painter->some);
+    free(painter->groups);
     free(painter->many);
     free(painter->block);
     free(painter->lines);
@@ -510,9 +647,8 @@ static void swap(LandedRow *a, LandedRow *b) {
 
 /* The cells between the two rows that were landed last. */
 static void paint_row(Painter *painter, const Run columns[2]) {
-    float height = (float)painter->source->height;
-    painter->row = 256 * (height * painter->below.v - 0.5f);
-    painter->next_row = 256 * (height * painter->above.v - 0.5f);
+    painter->row = least(65536 * painter->below.v + 0.5f, 65534);
+    painter->next_row = least(65536 * painter->above.v + 0.5f, 65534);
     cells_sort(painter);
     for (int run = 0; run < 2; run++) {
         if (painter->nearest)
@@ -528,21 +664,21 @@ void fill_cells(const Source *source, const PrewarpFactors *factors, Visibility 
     Landing landing = landing_create(source, factors, destination);
     Painter painter = painter_create(source, factors, visibility, destination);
     size_t count = (size_t)destination->width * destination->height;
-    memset(destination->texels, NOWHERE_BYTE, count * sizeof *destination->texels);
+    memset(painter.origins, NOWHERE & 255, count * sizeof(Origin));
     for (int run = 0; run < 2; run++) {
         Run rows = sheets.rows[run];
         bool up = rows.step > 0;
         if (rows.first == rows.end) continue;
         LandedRow *next = up ? &painter.above : &painter.below, *last = up ? &painter.below : &painter.above;
-        landing_row(&landing, source, up ? rows.first - 1 : rows.first, next);
+        landing_place(&landing, source, up ? rows.first - 1 : rows.first, next);
         for (int j = rows.first; j != rows.end; j += rows.step) {
             swap(next, last);
-            landing_row(&landing, source, up ? j : j - 1, next);
+            landing_place(&landing, source, up ? j : j - 1, next);
             if (j < source->height) forward_count(&painter.above, destination, counts);
             paint_row(&painter, sheets.columns);
         }
     }
-    if (destination->lookup) fetch_lookups(source, destination);
-    fetch_texels(source, count, destination->texels);
+    if (destination->lookup) fetch_lookups(source, painter.origins, count, destination->lookup);
+    fetch_texels(source, painter.origins, count, destination->texels);
     painter_destroy(&painter);
 }

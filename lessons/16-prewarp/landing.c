@@ -61,20 +61,27 @@ static Texel texel_mean(Texel a, Texel b) {
 
 static uint16_t level_mean(uint16_t a, uint16_t b) { return (uint16_t)((a + b + 1) / 2); }
 
-/* A row's texels and levels with both ends, from the source's row or from halfway between its first and last.
- */
-static void fetch(const Source *source, int index, LandedRow *row) {
-    int count = source->width, last = source->height - 1;
-    bool edge = index < 0 || index > last;
-    size_t start = (size_t)count * (edge ? last : index);
-    memcpy(row->texels, source->texels + start, count * sizeof *row->texels);
-    memcpy(row->levels, source->levels + start, count * sizeof *row->levels);
-    for (int i = 0; edge && i < count; i++) {
-        row->texels[i] = texel_mean(row->texels[i], source->texels[i]);
+/* Index -1 and the one after the last are halfway between the last row and the first. */
+static bool is_edge(const Source *source, int index) { return index < 0 || index >= source->height; }
+
+static size_t row_start(const Source *source, int index) {
+    return (size_t)source->width * (is_edge(source, index) ? source->height - 1 : index);
+}
+
+static void fetch_levels(const Source *source, int index, LandedRow *row) {
+    int count = source->width;
+    memcpy(row->levels, source->levels + row_start(source, index), count * sizeof *row->levels);
+    for (int i = 0; is_edge(source, index) && i < count; i++)
         row->levels[i] = level_mean(row->levels[i], source->levels[i]);
-    }
-    row->texels[-1] = row->texels[count] = texel_mean(row->texels[0], row->texels[count - 1]);
     row->levels[-1] = row->levels[count] = level_mean(row->levels[0], row->levels[count - 1]);
+}
+
+static void fetch_texels(const Source *source, int index, LandedRow *row) {
+    int count = source->width;
+    memcpy(row->texels, source->texels + row_start(source, index), count * sizeof *row->texels);
+    for (int i = 0; is_edge(source, index) && i < count; i++)
+        row->texels[i] = texel_mean(row->texels[i], source->texels[i]);
+    row->texels[-1] = row->texels[count] = texel_mean(row->texels[0], row->texels[count - 1]);
 }
 
 WIDE static void land(const Landing *landing, const LandedRow *row) {
@@ -93,9 +100,14 @@ WIDE static void land(const Landing *landing, const LandedRow *row) {
     }
 }
 
-void landing_row(const Landing *landing, const Source *source, int index, LandedRow *row) {
+void landing_place(const Landing *landing, const Source *source, int index, LandedRow *row) {
     row->row = index;
     row->v = index < 0 ? 0 : index >= source->height ? 1 : (float)((index + 0.5) / source->height);
-    fetch(source, index, row);
+    fetch_levels(source, index, row);
     land(landing, row);
+}
+
+void landing_row(const Landing *landing, const Source *source, int index, LandedRow *row) {
+    landing_place(landing, source, index, row);
+    fetch_texels(source, index, row);
 }

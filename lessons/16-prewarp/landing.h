@@ -40,4 +40,7 @@ Landing landing_create(const Source *source, const PrewarpFactors *factors, cons
 /* Lands row `index` of the source, -1 to its height. */
 void landing_row(const Landing *landing, const Source *source, int index, LandedRow *row);
 
+/* The same without its texels, which stay what they were. */
+void landing_place(const Landing *landing, const Source *source, int index, LandedRow *row);
+
 #endif

@@ -22,17 +22,34 @@
 
 typedef float Floats __attribute__((vector_size(4 * LANES)));
 typedef int32_t Ints __attribute__((vector_size(4 * LANES)));
+typedef uint32_t Uints __attribute__((vector_size(4 * LANES)));
 typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
 
 /* Comparisons make an Ints of -1 where they hold and 0 where not: `yes` in these. */
 #define PICK(yes, a, b) ((Floats)(((Ints)(a) & (yes)) | ((Ints)(b) & ~(yes))))
-#define LEAST(a, b) PICK((a) < (b), a, b)
-#define GREATEST(a, b) PICK((a) > (b), a, b)
+#define LEAST(a, b) BY_LANE(<, a, b)
+#define GREATEST(a, b) BY_LANE(>, a, b)
+#define BY_LANE(before, a, b)                                                                                \
+    __extension__({                                                                                          \
+        Floats a_ = (a), b_ = (b), c_;                                                                       \
+        for (int k_ = 0; k_ < LANES; k_++) c_[k_] = a_[k_] before b_[k_] ? a_[k_] : b_[k_];                  \
+        c_;                                                                                                  \
+    })
 
 #define FLOATS_OF(ints) __builtin_convertvector(ints, Floats)
 #define INTS_OF(floats) __builtin_convertvector(floats, Ints) /* toward 0 */
 #define CEIL(floats) (INTS_OF(floats) - (FLOATS_OF(INTS_OF(floats)) < (floats)))
 #define ALL(number) ((number) + (Floats){0})
+
+typedef int64_t LongInts __attribute__((vector_size(4 * LANES)));
+#if LANES == 8
+#define HALVED(longs) ((longs)[0] | (longs)[1] | (longs)[2] | (longs)[3])
+#else
+#define HALVED(longs) ((longs)[0] | (longs)[1])
+#endif
+#define EITHER(ints) (HALVED((LongInts)(ints)) | HALVED((LongInts)(ints)) >> 32)
+#define ANY(yes) (HALVED((LongInts)(yes)) != 0)
+#define ALL_OF(yes) (!ANY(~(yes)))
 
 /* To and from memory, wherever that lies. */
 #define LOAD(vector, from) memcpy(&(vector), from, sizeof(vector))
