@@ -119,42 +119,55 @@ static void put(const Point *point, const Light *light, Destination *destination
     if (destination->lookup) memcpy(&destination->lookup[3 * at], &point->value[LOOKUP], 3 * sizeof(float));
 }
 
-void warp_two_pass(const Source *source, const PrewarpFactors *factors, Destination *destination,
-                   float *kept) {
-    const int columns = destination->width, rows = source->height + 2;
-    const size_t texels = (size_t)columns * destination->height;
-    memset(destination->texels, 0, texels * sizeof(Texel));
-    if (destination->lookup) memset(destination->lookup, 0, texels * 3 * sizeof(float));
-    for (size_t i = 0; kept && i < (size_t)columns * source->height; i++) kept[i] = NAN;
-    if (!factors->possible) return;
-    const Light *light = light_tables();
-
+/* Each row to its columns: `between` has destination->width columns and as many rows as the source, and the
+ * two beyond its edges. */
+static void pass_rows(const Source *source, const PrewarpFactors *factors, const Light *light,
+                      const Run runs[2], const Destination *destination, Point *between) {
+    const int columns = destination->width;
     Point *row = allocate((size_t)source->width + 2, sizeof *row);
-    Point *column = allocate(rows, sizeof *column), *done = allocate(destination->height, sizeof *done);
-    Point *between = allocate((size_t)columns * rows, sizeof *between); /* the passes; rows by columns */
-    Sheets sheets = sheets_toward(epipole_in_pieces(source, factors), source->width + 1, rows - 1);
-
-    for (int y = 0; y < rows; y++) {
-        Point *out = &between[(size_t)y * columns];
+    for (int y = -1; y <= source->height; y++) {
+        Point *out = &between[(size_t)(y + 1) * columns];
         for (int x = 0; x < columns; x++) out[x] = nothing;
-        fetch_row(source, light, y - 1, row);
-        place_row(row, y - 1, source, factors, destination);
-        paint_line(row, sheets.columns, X, out, columns);
+        fetch_row(source, light, y, row);
+        place_row(row, y, source, factors, destination);
+        paint_line(row, runs, X, out, columns);
     }
+    free(row);
+}
+
+/* Each of their columns to the destination's rows. */
+static void pass_columns(const Point *between, int rows, const Light *light, const Run runs[2],
+                         Destination *destination) {
+    const int columns = destination->width;
+    Point *column = allocate(rows, sizeof *column), *done = allocate(destination->height, sizeof *done);
     for (int x = 0; x < columns; x++) {
         for (int y = 0; y < destination->height; y++) done[y] = nothing;
         for (int y = 0; y < rows; y++) column[y] = between[(size_t)y * columns + x];
-        paint_line(column, sheets.rows, Y, done, destination->height);
+        paint_line(column, runs, Y, done, destination->height);
         for (int y = 0; y < destination->height; y++)
             put(&done[y], light, destination, (size_t)y * columns + x);
     }
-    for (int y = 0; kept && y < source->height; y++)
-        for (int x = 0; x < columns; x++) {
-            const Point *left = &between[(size_t)(y + 1) * columns + x];
-            if (!isnan(left->value[X])) kept[(size_t)y * columns + x] = left->value[LOOKUP];
-        }
-    free(row);
     free(column);
     free(done);
+}
+
+void warp_two_pass(const Source *source, const PrewarpFactors *factors, Destination *destination,
+                   float *kept) {
+    const int columns = destination->width, rows = source->height + 2;
+    const size_t texels = (size_t)columns * destination->height, left = (size_t)columns * source->height;
+    memset(destination->texels, 0, texels * sizeof(Texel));
+    if (destination->lookup) memset(destination->lookup, 0, texels * 3 * sizeof(float));
+    for (size_t i = 0; kept && i < left; i++) kept[i] = NAN;
+    if (!factors->possible) return;
+
+    const Light *light = light_tables();
+    Point *between = allocate((size_t)columns * rows, sizeof *between);
+    Sheets sheets = sheets_toward(epipole_in_pieces(source, factors), source->width + 1, rows - 1);
+    pass_rows(source, factors, light, sheets.columns, destination, between);
+    pass_columns(between, rows, light, sheets.rows, destination);
+    for (size_t i = 0; kept && i < left; i++) {
+        const Point *point = &between[columns + i]; /* the first row lies beyond the source's edge */
+        if (!isnan(point->value[X])) kept[i] = point->value[LOOKUP];
+    }
     free(between);
 }
