@@ -152,6 +152,11 @@ static void add_layer(Prewarp *prewarp, const Plane *plane, const Destination *d
     layer_lay(layer, plane, destination->low, destination->high);
 }
 
+static void add_warped(Prewarp *prewarp, Way way, Eye eye, Destination *destination) {
+    scene_warp(prewarp, way, eye, destination);
+    add_layer(prewarp, &prewarp->source.plane, destination);
+}
+
 static void add_auxiliaries(Prewarp *prewarp, const PrewarpFactors *factors, Eye eye, bool lookup) {
     const Source *source = &prewarp->source;
     Displacements displacements = overflow_displacements(source);
@@ -172,14 +177,13 @@ void scene_prepare(const Frame *frame) {
     PrewarpFactors factors = prewarp_factors(&source->plane, eye);
     prewarp->layer_count = 0;
     if (!factors.possible || factors.behind) return;
-    Destination *destination = polygon_destination(prewarp, frame->looking), resized;
     if (way == RESIZED) {
-        resized = overflow_destination(source, &factors, RESIZED_LIMIT, frame->looking);
-        destination = &resized;
+        Destination resized = overflow_destination(source, &factors, RESIZED_LIMIT, frame->looking);
+        add_warped(prewarp, way, eye, &resized);
+        destination_destroy(&resized);
+    } else {
+        add_warped(prewarp, way, eye, polygon_destination(prewarp, frame->looking));
     }
-    scene_warp(prewarp, way, eye, destination);
-    add_layer(prewarp, &source->plane, destination);
-    if (way == RESIZED) destination_destroy(&resized);
     if (way == AUXILIARY) add_auxiliaries(prewarp, &factors, eye, frame->looking);
 }
 
