@@ -1,6 +1,6 @@
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "measure.h"
 
+#include "clock.h"
 #include "compare.h"
 #include "fail.h"
 #include "reference.h"
@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { ROUNDS_MIN = 3, ROUNDS = 7, ROUNDS_MAX = 41, PATH_FRAMES = 16 };
@@ -40,20 +39,16 @@ typedef struct {
 
 static struct {
     int done, total;
-    struct timespec start, said;
+    double start, said;
 } progress;
 
-static double seconds_since(struct timespec then) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - then.tv_sec) + 1e-9 * (double)(now.tv_nsec - then.tv_nsec);
-}
+static double seconds_since(double then) { return clock_seconds() - then; }
 
 static void progress_step(const Lesson *lesson, const char *what) {
     progress.done++;
     bool last = progress.done >= progress.total;
     if (!last && seconds_since(progress.said) < 2.0) return;
-    clock_gettime(CLOCK_MONOTONIC, &progress.said);
+    progress.said = clock_seconds();
     double elapsed = seconds_since(progress.start);
     fprintf(stderr, "%s: %d of %d (%s), about %.0f s left\n", lesson->name, progress.done, progress.total,
             what, elapsed / progress.done * (progress.total - progress.done));
@@ -351,8 +346,7 @@ static void measure_speed(Session *session, int view_index) {
     if (!count) return;
     Timing *timings = allocate((size_t)count, sizeof *timings);
     Picture scratch = picture_create(session->choice->width, session->choice->height, false);
-    struct timespec start;
-    clock_gettime(CLOCK_MONOTONIC, &start);
+    double start = clock_seconds();
     int round = -1; /* which warms up and is not counted */
     for (; another_round(round, seconds_since(start)); round++) {
         for (int i = 0; i < count; i++) {
@@ -468,7 +462,7 @@ static int count_steps(const Scene *scene, const Choice *choice, const Orders *o
 }
 
 void measure_all(const Lesson *lesson, const Options *options, const Choice *choice, const Orders *orders) {
-    clock_gettime(CLOCK_MONOTONIC, &progress.start);
+    progress.start = clock_seconds();
     progress.said = progress.start;
     progress.done = progress.total = 0;
     for (int i = 0; i < scene_count(lesson); i++)

@@ -1,23 +1,16 @@
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "show.h"
 
+#include "clock.h"
 #include "fail.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 static const double REST = 0.3;    /* seconds without a change, after which the error is sought */
 static const double GLANCE = 0.25; /* seconds between two looks at the shaders' files */
 
 enum { FRAMES_WANTED = 9 }; /* for the time of a frame */
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static void drop(Texture *texture) {
     if (texture->id) texture_destroy(texture);
@@ -34,7 +27,7 @@ static void picture_changed(Show *show) {
     show->refined.reason[0] = '\0';
     show->drawn = show->given = false;
     show->changed = true;
-    show->changed_at = now();
+    show->changed_at = clock_seconds();
 }
 
 static void technique_changed(Show *show) { /* or its shader or knob: a frame may take another time */
@@ -88,14 +81,14 @@ static void refiner_anew(Show *show) {
 void show_motion(Show *show) {
     if (!show->stage.scene->move) return;
     show->moving = !show->moving;
-    show->moved_until = now();
+    show->moved_until = clock_seconds();
     refiner_anew(show); /* its thread reads the scene: it must have ended before that changes */
     camera_changed(show);
     drop(&show->exact);
 }
 
 static void move(Show *show) {
-    double time = now();
+    double time = clock_seconds();
     show->seconds += time - show->moved_until;
     show->moved_until = time;
     show->stage.scene->move(show->stage.data, show->seconds);
@@ -263,7 +256,7 @@ Cost show_cost(const Show *show) {
 /* ---- The truth and the error ---- */
 
 static void ask(Show *show) {
-    bool rested = now() - show->changed_at > REST;
+    bool rested = clock_seconds() - show->changed_at > REST;
     if (!show->wanted && (rested || show->eager)) {
         refiner_want(show->refiner, &show->camera, show->width, show->height);
         show->wanted = true;
@@ -294,8 +287,8 @@ static void hear(Show *show) {
 }
 
 static void glance(Show *show) {
-    if (show->stamp && now() - show->glanced < GLANCE) return;
-    show->glanced = now();
+    if (show->stamp && clock_seconds() - show->glanced < GLANCE) return;
+    show->glanced = clock_seconds();
     uint64_t stamp = stage_stamp(&show->stage);
     if (show->stamp && stamp != show->stamp) reload(show);
     show->stamp = stamp;

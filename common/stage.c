@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* vasprintf */
 #include "stage.h"
 
+#include "clock.h"
 #include "context.h"
 #include "fail.h"
 
@@ -12,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* ---- Where files are ---- */
@@ -235,23 +235,17 @@ void stage_draw(Stage *stage, const Frame *frame, Picture *picture) {
     target_read(target, picture);
 }
 
-static double now_ns(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
-
 Cost stage_time(Stage *stage, const Frame *frame, Picture *scratch) {
     const Technique *technique = frame->technique;
-    double start = now_ns();
+    double start = clock_seconds();
     if (technique->prepare) technique->prepare(frame);
     gl.Finish(); /* what was asked of GL before belongs to the preparation */
-    double prepared = now_ns();
+    double prepared = clock_seconds();
     if (technique->paint) {
         paint(frame, scratch);
     } else {
         draw(stage, frame, target_of(&stage->plain, frame->width, frame->height, false));
         gl.Finish();
     }
-    return (Cost){prepared - start, now_ns() - prepared};
+    return (Cost){1e9 * (prepared - start), 1e9 * (clock_seconds() - prepared)};
 }

@@ -1,23 +1,18 @@
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "relief.h"
 
 #include "cone.h"
+#include "clock.h"
 #include "fail.h"
 #include "hits.h"
 #include "pyramid.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 static const double AMBIENT = 0.2; /* the light that shadows have too */
 
 /* ---- The maps ---- */
 
-static double milliseconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
+static double milliseconds(void) { return 1e3 * clock_seconds(); }
 
 Maps maps_create(const Image *height) {
     double start = milliseconds();

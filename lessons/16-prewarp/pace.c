@@ -1,20 +1,15 @@
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "pace.h"
 
+#include "clock.h"
 #include "fail.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 enum { RANDOM_VIEWS = 16, ROUNDS_MIN = 3 };
 static const double SECONDS = 0.1;      /* after which no more rounds than that are begun, */
 static const double SLOW_SECONDS = 0.5; /* and none more than the first */
 
-static double now_ns(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
+static double now_ns(void) { return 1e9 * clock_seconds(); }
 
 static bool another_round(int done, double start) {
     double seconds = 1e-9 * (now_ns() - start);
