@@ -29,25 +29,14 @@ typedef struct {
                */
 } Group;
 
-/* One line of as many cells as there are lanes: it covers columns first to end - 1, and `from` is the first
- * one's origin. */
+/* The same cells where some of them cover many: linear functions over each one's box, at the centre in its
+ * first corner, and a texel to the right and a texel above. */
 typedef struct {
-    int first[LANES], end[LANES];
-    Origin from[LANES];
-} Line;
-
-/* As many cells of one row that may cover many texels. In each, lines run along the rows or, where they are
- * fewer, along the columns of its box; then x and y change places (turned). */
-typedef struct {
-    float x00[LANES], x10[LANES], x11[LANES], x01[LANES], y00[LANES], y10[LANES], y11[LANES], y01[LANES];
+    float sides[4][LANES], right[4][LANES], above[4][LANES]; /* the sides' areas, see cells_sort */
+    float u_0[LANES], u_x[LANES], u_y[LANES], v_0[LANES], v_x[LANES], v_y[LANES];
     float u_left[LANES], u_right[LANES];
-    int lines[LANES], length[LANES], turned[LANES];
-    int start[LANES]; /* the destination texel in the first corner of the box */
-    /* For each side, where the line y may begin and where it must end: x = at + step y. */
-    float low_at[4][LANES], low_step[4][LANES], high_at[4][LANES], high_step[4][LANES];
-    float u_0[LANES], u_x[LANES], u_y[LANES], v_0[LANES], v_x[LANES],
-        v_y[LANES]; /* u = u_0 + u_x x + u_y y */
-} Block;
+    int start[LANES], columns[LANES], rows[LANES]; /* the box: its first texel and size */
+} Wide;
 
 /* What is painted with. Cell i of a row of cells lies between entries i - 1 and i of two landed rows; its
  * corners are numbered 00 10 11 01, the column first. */
@@ -60,14 +49,12 @@ typedef struct {
     float *columns;      /* of the entries: their u as Origin has it */
     float row, next_row; /* of the rows below and above: their v */
     Group *groups;       /* of the cells between these rows */
-    int *many;           /* in the order of painting: cells that cover many */
+    Wide *wides;         /* of those groups that are ODD */
     uint8_t *origins;    /* of each destination texel, four bytes */
-    Block *block;
-    Line *lines;
 } Painter;
 
 /* Texels beyond a side that count as inside, so that rounding tears nothing. */
-static const float SLACK = 1e-4f, FAR = 1e9f;
+static const float SLACK = 1e-4f;
 
 /* ---- What cells cover ---- */
 
@@ -147,6 +134,23 @@ WIDE static void cells_sort(const Painter *painter) {
         Floats u_0 = 0.5f * (u_left + u_right) - x_c * u_x - y_c * u_y;
         Floats v_0 = 0.5f * (low_v + high_v) - x_c * v_x - y_c * v_y;
         CHOOSE(0, 0, b, r, t, l, u_0, v_0, easy)
+        if (kind & ODD) {
+            Wide *wide = painter->wides + i / LANES;
+            Ints at, name = (MANY & convex) | (FOLDED & ~convex);
+            LOAD(at, group->at[0]);
+            at = (name & odd) | (at & ~odd);
+            STORE(at, group->at[0]);
+            STORE(b, wide->sides[0]), STORE(r, wide->sides[1]), STORE(t, wide->sides[2]),
+                STORE(l, wide->sides[3]);
+            STORE(b_x, wide->above[0]), STORE(r_x, wide->above[1]), STORE(t_x, wide->above[2]),
+                STORE(l_x, wide->above[3]);
+            STORE(b_y, wide->right[0]), STORE(r_y, wide->right[1]), STORE(t_y, wide->right[2]),
+                STORE(l_y, wide->right[3]);
+            STORE(u_0, wide->u_0), STORE(u_x, wide->u_x), STORE(u_y, wide->u_y), STORE(v_0, wide->v_0),
+                STORE(v_x, wide->v_x), STORE(v_y, wide->v_y);
+            STORE(u_left, wide->u_left), STORE(u_right, wide->u_right);
+            STORE(start, wide->start), STORE(columns, wide->columns), STORE(rows, wide->rows);
+        }
         if (kind & MORE) {
             Ints after = (wider & 1) | (~wider & width);
             Floats b_1 = b + PICK(wider, -b_y, b_x), r_1 = r + PICK(wider, -r_y, r_x);
@@ -159,12 +163,6 @@ WIDE static void cells_sort(const Painter *painter) {
                 b -= b_y, r -= r_y, t -= t_y, l -= l_y, u_0 += u_x, v_0 += v_x;
                 CHOOSE(3, width + 1, b, r, t, l, u_0, v_0, most)
             }
-        }
-        if (kind & ODD) {
-            Ints at, name = (MANY & convex) | (FOLDED & ~convex);
-            LOAD(at, group->at[0]);
-            at = (name & odd) | (at & ~odd);
-            STORE(at, group->at[0]);
         }
     }
 }
@@ -180,20 +178,20 @@ typedef struct {
     int column, right, row, above, s, t;
 } Place;
 
-static Place place_of(const Source *source, Origin origin) {
+INLINE Place place_of(const Source *source, Origin origin) {
     int width = source->width, height = source->height;
     int u = from_centre(origin & 65535, width), v = from_centre(origin >> 16, height);
-    int i = (u >> 16) + width, j = (v >> 16) + height;
-    return (Place){.column = i % width,
-                   .right = (i + 1) % width,
-                   .row = j % height,
-                   .above = (j + 1) % height,
+    int i = u >> 16, j = v >> 16; /* from -1 */
+    return (Place){.column = i < 0 ? width - 1 : i,
+                   .right = i + 1 < width ? i + 1 : 0,
+                   .row = j < 0 ? height - 1 : j,
+                   .above = j + 1 < height ? j + 1 : 0,
                    .s = u >> 8 & 255,
                    .t = v >> 8 & 255};
 }
 
 /* The source's level at an origin, bilinear. */
-static float level_at(const Source *source, Origin origin) {
+INLINE float level_at(const Source *source, Origin origin) {
     Place p = place_of(source, origin);
     const uint16_t *row = source->levels + (size_t)p.row * source->width;
     const uint16_t *next = source->levels + (size_t)p.above * source->width;
@@ -204,7 +202,7 @@ static float level_at(const Source *source, Origin origin) {
 }
 
 /* Whether the depth buffer lets an origin through. */
-static bool is_nearest(const Painter *painter, ptrdiff_t at, Origin origin) {
+INLINE bool is_nearest(const Painter *painter, ptrdiff_t at, Origin origin) {
     float level = level_at(painter->source, origin);
     uint32_t depth = (uint32_t)(16 * (painter->behind ? level : 65535 - level));
     if (depth >= painter->nearest[at]) return false;
@@ -219,8 +217,7 @@ typedef struct {
     bool deep;
 } Target;
 
-static inline __attribute__((always_inline)) void put(const Painter *painter, Target target, ptrdiff_t at,
-                                                      Origin origin) {
+INLINE void put(const Painter *painter, Target target, ptrdiff_t at, Origin origin) {
     if (target.deep && (at < 0 || !is_nearest(painter, at, origin))) return;
     memcpy(target.origins + at * (ptrdiff_t)sizeof origin, &origin, sizeof origin);
 }
@@ -294,128 +291,51 @@ static void paint_folded(const Painter *painter, int i) {
 
 /* ---- Convex cells that cover many texels ---- */
 
-/* The side from (ax, ay) to (bx, by): the cell lies right of it where it falls, left of it where it rises
- * (the other way round if turned), and a level one bounds no line. */
-#define MEASURE_SIDE(k, ax, ay, bx, by)                                                                      \
-    {                                                                                                        \
-        Floats rise = by - ay, step = (bx - ax) / rise;                                                      \
-        Ints falls = ((rise < zero) ^ turned) & (rise != zero), rises = ~falls & (rise != zero);             \
-        Floats slope = GREATEST(step, -step), at = ax - ay * step, slack = SLACK * (slope + 1.0f);           \
-        Floats low_at = PICK(falls, at - slack, -far), low_step = PICK(falls, step, zero);                   \
-        Floats high_at = PICK(rises, at + slack, far), high_step = PICK(rises, step, zero);                  \
-        STORE(low_at, block->low_at[k]), STORE(low_step, block->low_step[k]);                                \
-        STORE(high_at, block->high_at[k]), STORE(high_step, block->high_step[k]);                            \
-    }
-
-WIDE static void block_measure(Block *block, int width, int height, float row, float next_row) {
-    const Floats right_edge = ALL((float)width), top_edge = ALL((float)height), zero = {0}, far = ALL(FAR);
-    Floats x00, x10, x11, x01, y00, y10, y11, y01, u_left, u_right;
-    LOAD(x00, block->x00), LOAD(x10, block->x10), LOAD(x11, block->x11), LOAD(x01, block->x01);
-    LOAD(y00, block->y00), LOAD(y10, block->y10), LOAD(y11, block->y11), LOAD(y01, block->y01);
-    LOAD(u_left, block->u_left), LOAD(u_right, block->u_right);
-    Floats min0 = LEAST(x00, x10), min1 = LEAST(x01, x11), max0 = GREATEST(x00, x10),
-           max1 = GREATEST(x01, x11);
-    Floats left = LEAST(min0, min1), right = GREATEST(max0, max1);
-    min0 = LEAST(y00, y10), min1 = LEAST(y01, y11), max0 = GREATEST(y00, y10), max1 = GREATEST(y01, y11);
-    Floats bottom = LEAST(min0, min1), top = GREATEST(max0, max1);
-    left = GREATEST(left, zero), right = LEAST(right, right_edge);
-    bottom = GREATEST(bottom, zero), top = LEAST(top, top_edge);
-    Ints column = CEIL(left), columns = CEIL(right) - column, first_row = CEIL(bottom),
-         rows = CEIL(top) - first_row;
-    Ints start = first_row * width + column, turned = columns < rows;
-    Ints lines = (columns & turned) | (rows & ~turned), length = (rows & turned) | (columns & ~turned);
-    STORE(start, block->start), STORE(turned, block->turned), STORE(lines, block->lines),
-        STORE(length, block->length);
-    Floats x = FLOATS_OF(column), y = FLOATS_OF(first_row);
-    x00 -= x, x10 -= x, x11 -= x, x01 -= x, y00 -= y, y10 -= y, y11 -= y, y01 -= y;
-    Floats a00 = PICK(turned, y00, x00), a10 = PICK(turned, y10, x10), a11 = PICK(turned, y11, x11),
-           a01 = PICK(turned, y01, x01);
-    Floats b00 = PICK(turned, x00, y00), b10 = PICK(turned, x10, y10), b11 = PICK(turned, x11, y11),
-           b01 = PICK(turned, x01, y01);
-    /* The parallelogram nearest to the cell: u and v are linear in it. */
-    Floats s_a = 0.5f * (a10 - a00 + a11 - a01), s_b = 0.5f * (b10 - b00 + b11 - b01);
-    Floats t_a = 0.5f * (a01 - a00 + a11 - a10), t_b = 0.5f * (b01 - b00 + b11 - b10);
-    Floats a = 0.25f * (a00 + a10 + a01 + a11), b = 0.25f * (b00 + b10 + b01 + b11);
-    Floats area = s_a * t_b - s_b * t_a, u_r = (u_right - u_left) / area, v_r = (next_row - row) / area;
-    Floats u_x = t_b * u_r, u_y = -t_a * u_r, v_x = -s_b * v_r, v_y = s_a * v_r;
-    Floats u_0 = 0.5f * (u_left + u_right) - a * u_x - b * u_y,
-           v_0 = 0.5f * (row + next_row) - a * v_x - b * v_y;
-    STORE(u_0, block->u_0), STORE(u_x, block->u_x), STORE(u_y, block->u_y);
-    STORE(v_0, block->v_0), STORE(v_x, block->v_x), STORE(v_y, block->v_y);
-    MEASURE_SIDE(0, a00, b00, a10, b10)
-    MEASURE_SIDE(1, a10, b10, a11, b11)
-    MEASURE_SIDE(2, a11, b11, a01, b01)
-    MEASURE_SIDE(3, a01, b01, a00, b00)
+WIDE static void put_some(const Painter *painter, ptrdiff_t at, const int *inside, const Origin *from) {
+    Target target = {painter->origins, painter->nearest != NULL};
+    for (int n = 0; n < LANES; n++)
+        if (inside[n]) put(painter, target, at + n, from[n]);
 }
 
-WIDE static void block_cut(const Block *block, Line *lines, int line_count, float row, float next_row) {
-    const Floats zero = {0}, low_v = ALL(row), high_v = ALL(next_row);
-    Floats u, u_x, u_y, v, v_x, v_y, u_left, u_right;
-    Ints length;
-    LOAD(u, block->u_0), LOAD(u_x, block->u_x), LOAD(u_y, block->u_y), LOAD(u_left, block->u_left);
-    LOAD(v, block->v_0), LOAD(v_x, block->v_x), LOAD(v_y, block->v_y), LOAD(u_right, block->u_right);
-    LOAD(length, block->length);
-    const Floats all = FLOATS_OF(length);
-    for (int n = 0; n < line_count; n++) {
-        float y = (float)n;
-        Floats from = zero, to = all - 1.0f;
-        for (int k = 0; k < 4; k++) {
-            Floats at, step;
-            LOAD(at, block->low_at[k]), LOAD(step, block->low_step[k]);
-            at += step * y;
-            from = GREATEST(from, at);
-            LOAD(at, block->high_at[k]), LOAD(step, block->high_step[k]);
-            at += step * y;
-            to = LEAST(to, at);
-        }
-        from = LEAST(from, all), to = GREATEST(to, zero - 1.0f); /* so that they are integers of a kind */
-        Ints first = CEIL(from), end = INTS_OF(to + 1.0f);
-        Floats x = FLOATS_OF(first), at_u = u + u_x * x + u_y * y, at_v = v + v_x * x + v_y * y;
-        at_u = GREATEST(at_u, u_left), at_v = GREATEST(at_v, low_v);
-        at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);
-        Uints from_uv = (Uints)INTS_OF(at_v) << 16 | (Uints)INTS_OF(at_u);
-        STORE(first, lines[n].first), STORE(end, lines[n].end), STORE(from_uv, lines[n].from);
-    }
-}
-
-/* Makes ready the first of count cells, one a lane; where they are fewer than lanes, the first one again. */
-static void block_fill(const Painter *painter, const int *cells, int count) {
-    const LandedRow *below = &painter->below, *above = &painter->above;
-    Block *block = painter->block;
-    for (int k = 0; k < LANES; k++) {
-        int i = cells[k < count ? k : 0];
-        block->x00[k] = below->x[i - 1], block->x10[k] = below->x[i], block->x11[k] = above->x[i],
-        block->x01[k] = above->x[i - 1];
-        block->y00[k] = below->y[i - 1], block->y10[k] = below->y[i], block->y11[k] = above->y[i],
-        block->y01[k] = above->y[i - 1];
-        block->u_left[k] = painter->columns[i - 1], block->u_right[k] = painter->columns[i];
-    }
-    block_measure(block, painter->destination->width, painter->destination->height, painter->row,
-                  painter->next_row);
-    int most = 0;
-    for (int k = 0; k < LANES; k++) most = block->lines[k] > most ? block->lines[k] : most;
-    block_cut(block, painter->lines, most, painter->row, painter->next_row);
-}
-
-/* Cell k of the block. */
-static inline __attribute__((always_inline)) void paint_many(const Painter *painter, Target target, int k) {
-    const Block *block = painter->block;
-    ptrdiff_t width = painter->destination->width;
-    ptrdiff_t column_step = block->turned[k] ? width : 1, row_step = block->turned[k] ? 1 : width;
-    ptrdiff_t start = block->start[k];
-    const Line *line = painter->lines, *end_line = line + block->lines[k];
-    for (; line < end_line; line++, start += row_step) {
-        int x = line->first[k], end = line->end[k];
-        ptrdiff_t at = start + x * column_step;
-        put(painter, target, x < end ? at : NOTHING, line->from[k]);
-        if (++x >= end) continue;
-        float y = (float)(line - painter->lines), u = block->u_0[k] + block->u_y[k] * y,
-              v = block->v_0[k] + block->v_y[k] * y;
-        for (; x < end; x++) {
-            at += column_step;
-            float at_u = between(u + block->u_x[k] * (float)x, block->u_left[k], block->u_right[k]);
-            float at_v = between(v + block->v_x[k] * (float)x, painter->row, painter->next_row);
-            put(painter, target, at, origin_of(at_u, at_v));
+/* Cell k of a group, eight texels of a row of its box at a time: those that lie in the cell take their
+ * origins, the others keep theirs. */
+WIDE static void paint_many(const Painter *painter, const Wide *wide, int k) {
+    const Destination *destination = painter->destination;
+    uint8_t *const origins = painter->origins;
+    const bool deep = painter->nearest != NULL;
+    const int width = destination->width, columns = wide->columns[k], rows = wide->rows[k];
+    const ptrdiff_t whole = (ptrdiff_t)width * destination->height - LANES; /* the last at with so many */
+    const Floats u_left = ALL(wide->u_left[k]), u_right = ALL(wide->u_right[k]), low_v = ALL(painter->row),
+                 high_v = ALL(painter->next_row);
+    const Floats near = ALL(-SLACK * (float)(columns + rows)); /* rounding grows with the box */
+    for (int x = 0; x < columns; x += LANES) {
+        const Ints ramp = RAMP + x, within = ramp < columns;
+        const Floats along = FLOATS_OF(ramp);
+        Floats b = wide->sides[0][k] - wide->right[0][k] * along;
+        Floats r = wide->sides[1][k] - wide->right[1][k] * along;
+        Floats t = wide->sides[2][k] - wide->right[2][k] * along;
+        Floats l = wide->sides[3][k] - wide->right[3][k] * along;
+        Floats u = wide->u_0[k] + wide->u_x[k] * along, v = wide->v_0[k] + wide->v_x[k] * along;
+        ptrdiff_t at = wide->start[k] + x;
+        for (int y = 0; y < rows; y++, at += width) {
+            Floats least0 = LEAST(b, r), least1 = LEAST(t, l), least = LEAST(least0, least1);
+            Ints inside = (least >= near) & within;
+            Floats at_u = GREATEST(u, u_left), at_v = GREATEST(v, low_v);
+            at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);
+            Uints from = (Uints)INTS_OF(at_v) << 16 | (Uints)INTS_OF(at_u);
+            if (at <= whole && !deep) {
+                Uints kept;
+                LOAD(kept, origins + at * (ptrdiff_t)sizeof(Origin));
+                from = (from & (Uints)inside) | (kept & ~(Uints)inside);
+                STORE(from, origins + at * (ptrdiff_t)sizeof(Origin));
+            } else if (ANY(inside)) {
+                int lanes[LANES];
+                Origin some[LANES];
+                STORE(inside, lanes), STORE(from, some);
+                put_some(painter, at, lanes, some);
+            }
+            b += wide->above[0][k], r += wide->above[1][k], t += wide->above[2][k], l += wide->above[3][k];
+            u += wide->u_y[k], v += wide->v_y[k];
         }
     }
 }
@@ -427,40 +347,23 @@ static inline Run run_within(Run run, int g) {
     return run.step > 0 ? (Run){low, high, 1} : (Run){high - 1, low - 1, -1};
 }
 
-static int list_many(const Painter *painter, Run columns, int first, int end, int step) {
-    int count = 0;
-    for (int g = first; g != end; g += step) {
-        if (!(painter->groups[g].kind & ODD)) continue;
-        Run run = run_within(columns, g);
-        for (int k = run.first; k != run.end; k += run.step) {
-            painter->many[count] = g * LANES + k;
-            count += painter->groups[g].at[0][k] == MANY;
-        }
-    }
-    return count;
-}
-
-static inline __attribute__((always_inline)) void paint_choices(const Painter *painter, const Group *group,
-                                                                Run run, int choices, Target target) {
+INLINE void paint_choices(const Painter *painter, const Group *group, Run run, int choices, Target target) {
     for (int k = run.first; k != run.end; k += run.step)
         for (int n = 0; n < choices; n++) put(painter, target, group->at[n][k], group->from[n][k]);
 }
 
-static inline __attribute__((always_inline)) void paint_cells(const Painter *painter, Run columns,
-                                                              Target target) {
+INLINE void paint_cells(const Painter *painter, Run columns, Target target) {
     if (columns.first == columns.end) return;
     int step = columns.step, first = columns.first / LANES, end = (columns.end - step) / LANES + step;
-    int many_count = list_many(painter, columns, first, end, step), used = 0;
     for (int g = first; g != end; g += step) {
         const Group *group = painter->groups + g;
         if (!group->kind) continue;
         Run run = run_within(columns, g);
         if (group->kind & ODD)
             for (int k = run.first; k != run.end; k += run.step) {
-                if (group->at[0][k] == MANY) {
-                    if (used % LANES == 0) block_fill(painter, painter->many + used, many_count - used);
-                    paint_many(painter, target, used++ % LANES);
-                } else if (group->at[0][k] == FOLDED)
+                if (group->at[0][k] == MANY)
+                    paint_many(painter, painter->wides + g, k);
+                else if (group->at[0][k] == FOLDED)
                     paint_folded(painter, g * LANES + k);
                 else
                     paint_choices(painter, group, (Run){k, k + 1, 1},
@@ -497,7 +400,7 @@ typedef uint64_t Longs __attribute__((vector_size(32)));
 #define MIX(a, b, weight) (((a) * (256 - (weight)) + (b) * (weight) + 128) >> 8)
 
 /* The texel at an origin, wherever that lies. */
-static Texel texel_at(const Source *source, Origin origin) {
+INLINE Texel texel_at(const Source *source, Origin origin) {
     Texel texel = {0};
     if (origin == NOWHERE) return texel;
     Place p = place_of(source, origin);
@@ -616,11 +519,7 @@ static Painter painter_create(const Source *source, const PrewarpFactors *factor
         painter.columns[i] = least(65536 * painter.below.u[i] + 0.5f, 65535);
     painter.origins = (uint8_t *)destination->texels + texels * sizeof(Origin);
     painter.groups = allocate(cells / LANES, sizeof *painter.groups);
-    painter.many = allocate(cells, sizeof *painter.many);
-    painter.block = allocate(1, sizeof *painter.block);
-    painter.lines = allocate(
-        (size_t)(destination->width > destination->height ? destination->width : destination->height),
-        sizeof *painter.lines);
+    painter.wides = allocate(cells / LANES, sizeof *painter.wides);
     if (visibility == VISIBILITY_DEPTH_BUFFER) {
         painter.nearest = allocate(texels, sizeof *painter.nearest);
         memset(painter.nearest, 0xff, texels * sizeof *painter.nearest);
@@ -633,9 +532,7 @@ static void painter_destroy(Painter *painter) {
     landed_row_destroy(&painter->above);
     free(painter->columns - 1);
     free(painter->groups);
-    free(painter->many);
-    free(painter->block);
-    free(painter->lines);
+    free(painter->wides);
     free(painter->nearest);
 }
 

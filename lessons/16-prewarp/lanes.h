@@ -6,18 +6,20 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Part of every function that calls it: so it is compiled for AVX2 where the caller is. (A call from such
+ * code to code that uses the older registers can make the machine wait.) */
+#define INLINE static inline __attribute__((always_inline))
+
 /* Eight where the program can choose as it starts between code for AVX2 and code for any x86-64 (WIDE asks
  * for both), else four, which every machine has. */
 #ifdef __x86_64__
 #define LANES 8
 #define WIDE __attribute__((target_clones("avx2", "default")))
-#define LOWER_HALVES 0, 8, 1, 9, 2, 10, 3, 11
-#define UPPER_HALVES 4, 12, 5, 13, 6, 14, 7, 15
+#define RAMP ((Ints){0, 1, 2, 3, 4, 5, 6, 7})
 #else
 #define LANES 4
 #define WIDE
-#define LOWER_HALVES 0, 4, 1, 5
-#define UPPER_HALVES 2, 6, 3, 7
+#define RAMP ((Ints){0, 1, 2, 3})
 #endif
 
 typedef float Floats __attribute__((vector_size(4 * LANES)));
@@ -54,13 +56,5 @@ typedef int64_t LongInts __attribute__((vector_size(4 * LANES)));
 /* To and from memory, wherever that lies. */
 #define LOAD(vector, from) memcpy(&(vector), from, sizeof(vector))
 #define STORE(vector, to) memcpy(to, &(vector), sizeof(vector))
-
-/* The numbers of two vectors of Ints, one of each in turn. */
-#define STORE_PAIRS(a, b, to)                                                                                \
-    {                                                                                                        \
-        Ints lower_ = __builtin_shufflevector(a, b, LOWER_HALVES);                                           \
-        Ints upper_ = __builtin_shufflevector(a, b, UPPER_HALVES);                                           \
-        STORE(lower_, to), STORE(upper_, (char *)(to) + sizeof lower_);                                      \
-    }
 
 #endif
