@@ -95,7 +95,7 @@ for my $lesson (@lessons) {
     my $stem     = "$folder/$lesson$phase";
     my @expected = rows("lessons/$lesson/expect.csv");
     ok(@expected > 0, "$lesson/expect.csv expects something");
-    @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio)/) } @expected if $phase;
+    @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio|scatter_ratio)/) } @expected if $phase;
     if (@expected) {
         unlink "$stem.csv";
         write_only("$stem-only.csv", @expected);

@@ -229,6 +229,21 @@ static void test_relief_special(void **state) {
     image_destroy(&height);
 }
 
+/* An eye within the layer of heights: a ridge right behind it is not met, for the way begins at the eye. */
+static void test_relief_from_within(void **state) {
+    (void)state;
+    Image height = image_create(8, 1, 1);
+    height.pixels[2] = 1.0f; /* a ridge along x = -3/16, with z up to 0.4 */
+    Relief relief = {&height, 1, 1, 0.4, 0, RELIEF_REPEATED};
+    const double half = 0.70710678118654752;
+    Ray down = {{0, 0.1, 0.2}, {half, 0, -half}}; /* backward it would pass through the ridge */
+    Sample sample = truth_relief(&relief, down);
+    assert_true(sample.hit);
+    near(sample.depth, 0.2 / half, 1e-12);
+    near(sample.u, 0.7, 1e-12);
+    image_destroy(&height);
+}
+
 /* A surface as high as the layer: rays enter at it exactly, and rounding decides nothing. */
 static void test_relief_at_the_top(void **state) {
     (void)state;
@@ -253,6 +268,7 @@ int main(void) {
         cmocka_unit_test(test_relief_extents),
         cmocka_unit_test(test_relief_normal),
         cmocka_unit_test(test_relief_special),
+        cmocka_unit_test(test_relief_from_within),
         cmocka_unit_test(test_relief_at_the_top),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -96,6 +96,22 @@ static void test_between_texels(void **state) {
     image_destroy(&map);
 }
 
+/* A pin, and behind it, but in another direction, one that needs a slope 1 % steeper: so little that all of
+ * its block is granted what it can need at most, unseen. */
+static void test_what_is_granted_unseen(void **state) {
+    (void)state;
+    Image map = image_create(128, 128, 1);
+    *image_at(&map, 19, 10) = 0.2f;
+    *image_at(&map, 10, 41) = 0.76523f;
+    Image cones = cone_build(&map);
+    double m = *image_at(&cones, 10, 10), needed = *image_at(&map, 10, 41) / 30.0;
+    assert_true(needed >
+                1.005 * (0.2 / 8.0) * (1.0 + 0.5 / 49.0)); /* what the near pin may be found to need */
+    assert_true(m >= needed && m < 1.1 * needed);
+    image_destroy(&cones);
+    image_destroy(&map);
+}
+
 /* The steepest way up from a point, over all texels and the middles between them. */
 static double steepest_from(const Image *map, double px, double py) {
     double steepest = 0.0, h = surface(map, px, py);
@@ -154,6 +170,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing_rises_above_a_cone),
         cmocka_unit_test(test_between_texels),
+        cmocka_unit_test(test_what_is_granted_unseen),
         cmocka_unit_test(test_cones_are_hardly_too_wide),
         cmocka_unit_test(test_known_cones),
     };

@@ -1,5 +1,6 @@
 /* The exact searches of GLSL, drawn off-screen, against the truth on maps made to mislead them; the shadow
  * against shadows whose length is known. */
+#define _GNU_SOURCE /* mkdtemp */
 #include "context.h"
 #include "fail.h"
 #include "relief.h"
@@ -11,6 +12,7 @@
 #include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 /* ---- Maps made to mislead ---- */
 
@@ -262,12 +264,41 @@ static void test_shadow_across_the_border(void **state) {
     image_destroy(&height);
 }
 
+/* ---- The scenes ---- */
+
+/* What is loaded is what --list says of it: the light's place, and base 1 where the relief is cut. */
+static void test_scenes_are_as_listed(void **state) {
+    (void)state;
+    Context *context = context_offscreen();
+    char folder[] = "/tmp/texel-relief-XXXXXX";
+    if (!mkdtemp(folder)) fail_msg("%s cannot be made", folder);
+    char *path = text("%s/relief.png", folder);
+    Image colour = image_create(4, 2, 3), height = image_create(4, 2, 1);
+    height.scale = 0.2, height.base = 0.25;
+    assert_null(image_write_relief(&colour, &height, path, 16));
+    Options options = {.colour = path, .height = path, .scale = NAN};
+    Field *lit = relief_load_lit(&options), *cut = relief_load_cut(&options);
+    Vec3 light = lit->light;
+    assert_true(lit->lit && fabs(vec3_length(light) - 1) < 1e-15);
+    assert_true(fabs(atan2(light.y, light.x) - radians(148)) < 1e-15);
+    assert_true(fabs(hypot(light.x, light.y) / light.z - 1.2) < 1e-15);
+    assert_true(lit->wall.relief.scale == 0.2 && lit->wall.relief.aspect == 0.5);
+    assert_true(lit->wall.relief.base == 0.25 && lit->wall.relief.extent == RELIEF_REPEATED);
+    assert_true(cut->wall.relief.base == 1.0 && cut->wall.relief.extent == RELIEF_CUT);
+    relief_unload(lit);
+    relief_unload(cut);
+    image_destroy(&colour);
+    image_destroy(&height);
+    remove(path), free(path);
+    rmdir(folder);
+    context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_maximum_is_exact),
-        cmocka_unit_test(test_cone_is_conservative),
-        cmocka_unit_test(test_shadow_of_a_ridge),
-        cmocka_unit_test(test_shadow_across_the_border),
+        cmocka_unit_test(test_maximum_is_exact),     cmocka_unit_test(test_cone_is_conservative),
+        cmocka_unit_test(test_shadow_of_a_ridge),    cmocka_unit_test(test_shadow_across_the_border),
+        cmocka_unit_test(test_scenes_are_as_listed),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("lesson 15", tests, NULL, NULL);

@@ -30,6 +30,12 @@ CASE("the steepest that is stored", (4 * 1.0 + 7) * 0x1p-24, "", landed_normal(v
 CASE("two sides of a ridge mixed: short and up", (4 * 0.51 / 0.02 + 7) * 0x1p-24, "",
      landed_normal(vec4(0.5, 0.5, 0.51, 1.0)))
 
+// ---- landed_point: differences and products of numbers that are exact here
+
+CASE_EQUALS("a point below a wide polygon", 0, "", vec3(0.25, -0.125, -0.0625),
+            landed_point(vec3(0.75, 0.25, 0.5), 0.125, 1.0, 0.5))
+CASE_EQUALS("one above a tall polygon", 0, "", vec3(-0.5, 1.0, 0.0625), landed_point(vec3(0.0, 1.0, 0.5), 0.125, 0.0, 2.0))
+
 // ---- lit: a dot product of unit vectors, 3 u and a literal's 2 u; the mix adds 3 u, the product 1 u
 
 CASE_EQUALS("along the normal", 0, "", vec3(0.5, 0.25, 1.0), lit(vec3(0.5, 0.25, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), 0.25))

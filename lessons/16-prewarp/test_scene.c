@@ -125,6 +125,26 @@ static void test_lay(void **state) {
     }
 }
 
+/* A filter mixes texels by how much of them there is: half of one weighs half, in colour as in normal. */
+static void test_layers_are_weighed(void **state) {
+    (void)state;
+    Destination destination = destination_create(2, 1, v2(0, 0), v2(1, 1), false);
+    destination.texels[0] = (Texel){{188, 64, 0, 128}, {255, 128, 10, 0}};
+    destination.texels[1] = (Texel){{188, 64, 0, 255}, {255, 128, 10, 0}};
+    Layer layer = {0};
+    layer_write(&layer, &destination);
+    for (int c = 0; c < 3; c++) {
+        uint8_t colour = destination.texels[1].colour[c], normal = destination.texels[1].normal[c];
+        assert_int_equal(layer.colours[1][c], colour);
+        assert_int_equal(layer.normals[1][c], 257 * normal);
+        near(srgb_decode(layer.colours[0][c] / 255.0), srgb_decode(colour / 255.0) * 128 / 255, 0.004);
+        near(layer.normals[0][c], 257.0 * normal * 128 / 255, 1);
+    }
+    assert_int_equal(layer.normals[0][3], 257 * 128);
+    layer_destroy(&layer);
+    destination_destroy(&destination);
+}
+
 static int layers_seen(Prewarp *prewarp, Way way, Vec3 eye, double fov_y_degrees) {
     Technique technique = {.variant = way};
     Frame frame = {.technique = &technique,
@@ -250,11 +270,17 @@ static int end_context(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_resampled),    cmocka_unit_test(test_sizes_differ),
-        cmocka_unit_test(test_eye),          cmocka_unit_test(test_lay),
-        cmocka_unit_test(test_layers),       cmocka_unit_test(test_hard_eyes),
-        cmocka_unit_test(test_thin_reliefs), cmocka_unit_test(test_truth_is_lit),
-        cmocka_unit_test(test_pace_views),   cmocka_unit_test(test_pace_table),
+        cmocka_unit_test(test_resampled),
+        cmocka_unit_test(test_sizes_differ),
+        cmocka_unit_test(test_eye),
+        cmocka_unit_test(test_lay),
+        cmocka_unit_test(test_layers_are_weighed),
+        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_hard_eyes),
+        cmocka_unit_test(test_thin_reliefs),
+        cmocka_unit_test(test_truth_is_lit),
+        cmocka_unit_test(test_pace_views),
+        cmocka_unit_test(test_pace_table),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("lesson 16: the scene", tests, make_context, end_context);

@@ -2,6 +2,7 @@
  * itself, by the line from the eye through its point, and exact rays. */
 #include "depth_buffer.h"
 #include "inverse.h"
+#include "light.h"
 #include "overflow.h"
 #include "splat.h"
 #include "truth.h"
@@ -145,6 +146,12 @@ static void warp(Way way, const Source *source, Eye eye, Destination *destinatio
     else
         warp_forward(source, &factors, visibility, way == DEPTH ? FILLING_NONE : FILLING_SPLAT, destination,
                      NULL);
+}
+
+static void bytes_survive_linear_light(void **unused) {
+    (void)unused;
+    const Light *light = light_tables();
+    for (int i = 0; i < 256; i++) assert_int_equal(light_encode(light, light->decoded[i]), i);
 }
 
 /* ---- Depth buffer ---- */
@@ -339,6 +346,23 @@ static void two_pass_is_exact_in_a_line(void **unused) {
         destination_destroy(&one);
         destination_destroy(&other);
     }
+}
+
+/* A pin of one texel, which an eye right beside its top looks down on: the piece of the row below the eye
+ * comes last, or the pin's far side would be seen through its near one. */
+static void the_piece_below_the_eye_comes_last(void **unused) {
+    (void)unused;
+    Source source = relief_new(NOISE, 8, 1, 0.55, 1);
+    for (int x = 0; x < 8; x++) source.levels[x] = x == 4 ? UINT16_MAX : 0;
+    Eye eye = {v3(4.7 / 8 - 0.5, 0, 0.05), 1}; /* the pin's top is at 4.5 of 8 */
+    Destination destination = destination_create(16, 1, v2(4.5 / 8, 0), v2(4.7 / 8, 1), true);
+    warp(TWO_PASS, &source, eye, &destination);
+    for (int x = 0; x < 16; x++) {
+        double shown = 8 * destination.lookup[3 * x];
+        assert_true(shown > 4.5 && shown < 5.5);
+    }
+    source_destroy(&source);
+    destination_destroy(&destination);
 }
 
 /* A gentle relief has no folds to lose anything in: two passes show what the inverse does. */
@@ -675,11 +699,13 @@ static void auxiliaries_show_what_rays_see(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bytes_survive_linear_light),
         cmocka_unit_test(depth_buffer_keeps_the_nearest),
         cmocka_unit_test(splats_are_composited),
         cmocka_unit_test(near_spots_lie_over_far_ones),
         cmocka_unit_test(two_pass_shows_what_is_there),
         cmocka_unit_test(two_pass_is_exact_in_a_line),
+        cmocka_unit_test(the_piece_below_the_eye_comes_last),
         cmocka_unit_test(two_pass_is_the_inverse_without_folds),
         cmocka_unit_test(first_pass_keeps_what_it_says),
         cmocka_unit_test(inverse_is_the_exact_ray),

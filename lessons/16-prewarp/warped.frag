@@ -16,7 +16,7 @@ layout(location = 1) out vec4 lookup;
 // u, v, and how far the eye is from that point of the relief.
 vec4 looked_up() {
     vec4 from = landed_lookup(colour_map, lookup_map, uv, near.xy);
-    vec3 point = vec3(from.x - 0.5, (from.y - 0.5) * aspect, scale * (from.z - base));
+    vec3 point = landed_point(vec3(from.xyz), scale, base, aspect);
     float depth = eye.w > 0.0 ? length(eye.xyz - point) : eye_plane - dot(point, eye.xyz);
     return vec4(from.xy, depth, 1.0);
 }

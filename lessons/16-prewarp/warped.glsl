@@ -7,6 +7,11 @@ vec3 landed_colour(vec4 texel) { return vec3(texel.rgb) / texel.a; }
 // The same for a normal, whose components are stored as (1 + n) / 2.
 vec3 landed_normal(vec4 texel) { return normalize(2.0 * vec3(texel.rgb) - texel.a); }
 
+// Where that lay before it was moved: u, v and h of the source as a point of the polygon's frame.
+vec3 landed_point(vec3 from, float scale, float base, float aspect) {
+    return vec3(from.x - 0.5, (from.y - 0.5) * aspect, scale * (from.z - base));
+}
+
 // Diffuse light from far away, where the unit vector light points, and the share of it that comes from everywhere.
 vec3 lit(vec3 colour, vec3 normal, vec3 light, float ambient) {
     return colour * mix(max(dot(normal, light), 0.0), 1.0, ambient);
