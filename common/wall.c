@@ -9,6 +9,15 @@ static void require_heights(const Image *height, const char *path) {
             fail("%s: a height must lie in 0..1, but one is %g", path, height->pixels[i]);
 }
 
+enum { BASE_MAX = 10 }; /* farther from its polygon, floats have no room for a relief */
+
+static double base_of(const Image *height, const char *path) {
+    double base = isnan(height->base) ? 1.0 : height->base;
+    if (!(fabs(base) <= BASE_MAX))
+        fail("%s: its base is %g; -%d to %d can be drawn", path, base, BASE_MAX, BASE_MAX);
+    return base;
+}
+
 void wall_load(Wall *wall, const Options *options) {
     *wall = (Wall){.colour_image = image_load(options->colour, IMAGE_COLOUR),
                    .height_image = image_load(options->height, IMAGE_HEIGHT)};
@@ -22,7 +31,7 @@ void wall_load(Wall *wall, const Options *options) {
                             .width = 1.0,
                             .aspect = aspect,
                             .scale = options_scale(options, height),
-                            .base = isnan(height->base) ? 1.0 : height->base};
+                            .base = base_of(height, options->height)};
     Mesh plane = mesh_plane(1.0, aspect, 1, 1);
     wall->polygon = shape_create(&plane);
     mesh_destroy(&plane);

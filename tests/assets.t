@@ -301,6 +301,12 @@ is((run('build/relief', 'combine', $c, $h, $r, '--like', 'build/assets/brick-rel
 same($r, 'build/assets/brick-relief.png', 'the same bytes again');
 is((run('build/relief', 'combine', qw(--scale=-0.25 --base 0.5 --hollow --bits=8), @wall, $r))[0], 0, 'with options');
 is shown($r), "$r\ntexels   256 x 256, 8 bits\nscale    -0.25\nbase     0.5\nhollow   where h = 0\n", 'which it keeps';
+my $like = "$tmp/like.png";
+is((run('build/relief', 'combine', @wall, $like, '--like', $r))[0], 0, 'like a hollow one');
+is shown($like), "$like\ntexels   256 x 256, 16 bits\nscale    -0.25\nbase     0.5\nhollow   where h = 0\n", 'hollow too';
+my @wide = map { "build/assets/stereo-$_" } 'colour.png', 'height.exr';
+is((run('build/relief', 'combine', @wide, $like, '--width=37'))[0], 0, 'a wide one');
+like shown($like), qr/^a        37 0 0\nb        0 25 0\n/m, 'is as tall as its texels say';
 is((run('build/relief', 'combine', ('build/assets/checker.png') x 2, $r))[0], 0, 'from what says nothing');
 is shown($r), "$r\ntexels   256 x 256, 16 bits\nscale    0.1\nbase     1\n", 'scale 0.1 and base 1';
 my @clean = ('env', map({ ('-u', $_) } qw(MAKEFLAGS MAKELEVEL MFLAGS)), 'make', '-s', 'relief');

@@ -58,6 +58,8 @@ my ($status, $help) = run("$lesson --help");
 ok($status == 0 && $help =~ /--measure/, '--help helps');
 
 # ---- Files ----
+system("build/relief combine --base 1e300 build/assets/checker.png build/assets/checker.png $temp/far.png");
+refuses(1, qr{far.png: its base is 1e\+300}, "--height $temp/far.png --render $temp/far");
 my $small = '--scene brick --technique plain --view front --size 8x8';
 my $png   = bytes('build/assets/brick-colour.png');
 my $half  = file('truncated.png', substr $png, 0, length($png) / 2); # test_image.c has all that can be wrong

@@ -67,15 +67,20 @@
 
 /* ---- The scenes ---- */
 
-#define WALL(base, base_says) \
+#define WALL(base, base_says, extent_says) \
     .unload = scene_unload, .draw = scene_draw, .move = scene_move, .truth = scene_truth, .texels = scene_texels, \
     .measure = scene_measure, .background = {0.02, 0.02, 0.02}, \
     .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
               {"base", base, "height of the polygon, " base_says}, \
+              {"extent", 1, "width: the relief ends with the polygon, without sides, and is seen " extent_says}, \
               {"light_azimuth", 120, "degrees from +u toward +v, far away"}, \
               {"light_tangent", 0.7, "its height over the plane, to its distance in the plane"}, \
-              {"ambient", 0.3, "the share of light from everywhere"}}
-#define TOP WALL(1, "unless base_of_file says otherwise")
+              {"ambient", 0.3, "colour = texture (ambient + (1 - ambient) max(n.l, 0)); there are no shadows"}, \
+              {"normal_span", 2, "texels: n by central differences at the larger image's size, interpolated, unit"}}
+#define BEHIND "through the polygon alone"
+#define AROUND_IT "from beside the polygon too"
+#define FROM_FILE "unless base_of_file says otherwise"
+#define TOP WALL(1, FROM_FILE, BEHIND)
 #define BRICK .colour = "brick-256-colour.png", .height = "brick-256-height.png"
 #define TERRAIN .colour = "terrain-relief.png", .height = "terrain-relief.png"
 /* clang-format on */
@@ -97,10 +102,10 @@ static const Lesson lesson = {
          .colour = "uv-grid.png", .height = "pins-height.png", .load = scene_load, TOP},
         {"overflow", "the wall below its polygon, seen beyond two edges at most (base 1)",
          .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER_AND_ABOVE}, BRICK,
-         .load = scene_load_overflow, TOP},
+         .load = scene_load_overflow, WALL(1, FROM_FILE, AROUND_IT)},
         {"bottom", "the wall standing on its polygon, seen beyond up to four edges (base 0)",
          .techniques = {NOT_WARPED, BEYOND_EDGES}, .views = {CORNER_AND_ABOVE}, BRICK,
-         .load = scene_load_bottom, WALL(0, "whatever base_of_file says")},
+         .load = scene_load_bottom, WALL(0, "whatever base_of_file says", AROUND_IT)},
     }};
 
 int main(int argc, char **argv) { return lesson_run(&lesson, argc, argv); }
