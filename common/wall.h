@@ -15,8 +15,8 @@ typedef struct {
 
 /* Loads the images that the options name: the colour; the height, which must lie in 0..1, with its scale
  * (options_scale) and base (its file's, -10 to 10, or 1); and as the first other one, if there is one, the
- * mask, which counts only for a height map of its size. The wall must stay where it is: its relief points into
- * it. */
+ * mask, which counts only for a height map of its size. The wall must stay where it is: its relief points
+ * into it. */
 void wall_load(Wall *wall, const Options *options);
 void wall_unload(Wall *wall);
 
