@@ -55,11 +55,13 @@
     .unload = relief_unload, .draw = relief_draw, .truth = relief_truth, .texels = relief_texels, \
     .measure = relief_measure, .background = {0.02, 0.02, 0.02}, .samples = sample_count, \
     .facts = {{"polygon_width", 1, "world units, around the origin in the plane z = 0"}, \
-              {"base", 1, "height of the polygon, unless base_of_file says otherwise"}, __VA_ARGS__}
+              {"base", 1, "height of the polygon, unless base_of_file says otherwise"}, \
+              {"period", 1, "width: the bilinear relief repeats beyond the polygon, unless it is cut"}, __VA_ARGS__}
 #define LIT \
     {"light_azimuth", 148, "degrees from +x toward +y, of a light infinitely far"}, \
     {"light_tangent", 1.2, "of its angle from the normal"}, \
-    {"ambient", 0.2, "colour = texture (ambient + (1 - ambient) max(n.l, 0), or 0 for that in shadow)"}
+    {"ambient", 0.2, "colour = texture (ambient + (1 - ambient) max(n.l, 0), or 0 for that in shadow)"}, \
+    {"normal_span", 1, "texel: n is the unit normal of the bilinear patch that the point lies in"}
 #define CUT {"extent", 1, "width: the relief ends with the polygon, whose base is 1 whatever the file says"}
 #define ANGLES .views = {VIEW_30(0.64), VIEW_60(0.37), VIEW_80, VIEW_87, ASKEW_60, ASKEW_87}
 /* clang-format on */
