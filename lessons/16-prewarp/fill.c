@@ -5,14 +5,17 @@
 
 #include <stdlib.h>
 
-/* Where a destination texel comes from: its u and v in 1/65536 of the source, v in the upper half. */
+/* Painting first writes only where each destination texel comes from, its origin: u and v in 1/65536 of the
+ * source, v in the upper half. Four bytes against a texel's eight, and what is painted over was never
+ * fetched. Origins lie in the upper half of the destination's own memory: from the first texel to the last,
+ * each is read before the texel that takes its place is written. */
 typedef uint32_t Origin;
 
 static const Origin NOWHERE = 0xffffffff; /* which rounds to no u and v of a cell: v ends at 65534 */
 
 /* Which destination texel takes an origin: its number, or one of these. */
 enum {
-    NOTHING = -1, /* painted like any other: there is room for it */
+    NOTHING = -1, /* painted like any other, in the half that holds no origins: cheaper than to ask */
     MANY = -2,    /* of the first choice: the cell may cover more texels than there are choices */
     FOLDED = -3   /* of the first choice: perhaps some, but the cell is not convex */
 };
@@ -25,14 +28,14 @@ enum { SOME = 1, MORE = 2, MOST = 4, ODD = 8 };
 typedef struct {
     int at[CHOICES][LANES];
     Origin from[CHOICES][LANES];
-    int kind; /* what some cell of it has: SOME at least a choice, MORE two, MOST four, ODD is MANY or FOLDED
-               */
+    int kind; /* what cells are in it: SOME with a choice, MORE with two, MOST with four, ODD ones that are
+                 MANY or FOLDED */
 } Group;
 
-/* The same cells where some of them cover many: linear functions over each one's box, at the centre in its
- * first corner, and a texel to the right and a texel above. */
+/* The same cells where some of them cover many: what is linear over each one's box, at the first centre. */
 typedef struct {
-    float sides[4][LANES], right[4][LANES], above[4][LANES]; /* the sides' areas, see cells_sort */
+    float sides[4][LANES];                  /* the sides' areas, see cells_sort; a texel to the right they */
+    float right[4][LANES], above[4][LANES]; /* are less by `right`, a texel above more by `above` */
     float u_0[LANES], u_x[LANES], u_y[LANES], v_0[LANES], v_x[LANES], v_y[LANES];
     float u_left[LANES], u_right[LANES];
     int start[LANES], columns[LANES], rows[LANES]; /* the box: its first texel and size */
@@ -50,7 +53,7 @@ typedef struct {
     float row, next_row; /* of the rows below and above: their v */
     Group *groups;       /* of the cells between these rows */
     Wide *wides;         /* of those groups that are ODD */
-    uint8_t *origins;    /* of each destination texel, four bytes */
+    uint8_t *origins;    /* of all destination texels */
 } Painter;
 
 /* Texels beyond a side that count as inside, so that rounding tears nothing. */

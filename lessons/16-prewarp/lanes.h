@@ -29,6 +29,7 @@ typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
 
 /* Comparisons make an Ints of -1 where they hold and 0 where not: `yes` in these. */
 #define PICK(yes, a, b) ((Floats)(((Ints)(a) & (yes)) | ((Ints)(b) & ~(yes))))
+/* By lane, for which compilers know one instruction. */
 #define LEAST(a, b) BY_LANE(<, a, b)
 #define GREATEST(a, b) BY_LANE(>, a, b)
 #define BY_LANE(before, a, b)                                                                                \
@@ -43,14 +44,15 @@ typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
 #define CEIL(floats) (INTS_OF(floats) - (FLOATS_OF(INTS_OF(floats)) < (floats)))
 #define ALL(number) ((number) + (Floats){0})
 
+/* The bits that any lane has, as one integer; and whether some or all lanes are `yes`. */
 typedef int64_t LongInts __attribute__((vector_size(4 * LANES)));
 #if LANES == 8
-#define HALVED(longs) ((longs)[0] | (longs)[1] | (longs)[2] | (longs)[3])
+#define EITHER_LONG(longs) ((longs)[0] | (longs)[1] | (longs)[2] | (longs)[3])
 #else
-#define HALVED(longs) ((longs)[0] | (longs)[1])
+#define EITHER_LONG(longs) ((longs)[0] | (longs)[1])
 #endif
-#define EITHER(ints) (HALVED((LongInts)(ints)) | HALVED((LongInts)(ints)) >> 32)
-#define ANY(yes) (HALVED((LongInts)(yes)) != 0)
+#define EITHER(ints) (EITHER_LONG((LongInts)(ints)) | EITHER_LONG((LongInts)(ints)) >> 32)
+#define ANY(yes) (EITHER_LONG((LongInts)(yes)) != 0)
 #define ALL_OF(yes) (!ANY(~(yes)))
 
 /* To and from memory, wherever that lies. */
