@@ -60,12 +60,27 @@ static void face_load(Face *face, const char *path, Texel **texels, size_t *coun
     image_destroy(&colour);
 }
 
-/* Opposite faces look opposite ways, the others at right angles. */
+/* How far the corners of a face reach above the plane of another at most: 0 where they share a side. */
+static double rise_above(const Face *face, const Face *other) {
+    double rise = -INFINITY;
+    for (int i = 0; i < 4; i++) {
+        Vec3 corner = face_point(face, i & 1, i >> 1, 0.0);
+        rise = fmax(rise, vec3_dot(vec3_sub(corner, other->plane.origin), other->plane.f));
+    }
+    return rise;
+}
+
+/* Opposite faces look opposite ways, the others at right angles and meet at a side. */
 static void check_box(const Box *box, const char *path) {
     for (int i = 0; i < FACES; i++) {
-        for (int k = 0; k < i; k++) {
-            double expected = i == k + OPPOSITE ? -1.0 : 0.0;
-            if (fabs(vec3_dot(box->faces[i].plane.f, box->faces[k].plane.f) - expected) > 1e-6)
+        for (int k = 0; k < FACES; k++) {
+            if (k == i) continue;
+            const Face *face = &box->faces[i], *other = &box->faces[k];
+            bool opposite = abs(i - k) == OPPOSITE;
+            double cosine = vec3_dot(face->plane.f, other->plane.f);
+            double gap = rise_above(face, other), little = 1e-6 * vec3_length(other->plane.a);
+            bool fits = opposite ? gap < 0.0 : fabs(gap) <= little;
+            if (fabs(cosine - (opposite ? -1.0 : 0.0)) > 1e-6 || !fits)
                 fail("%s: its face and the other five are no box's", path);
         }
     }

@@ -34,12 +34,13 @@ static Vec3 lit(Vec3 colour, Vec3 normal, Vec3 to_light, Vec3 to_eye) {
     return vec3_add(vec3_scale(colour, 0.25 + 0.6 * facing), v3(highlight, highlight, highlight));
 }
 
-/* Once around the vertical axis in eight seconds. */
-void exhibit_move(void *data, double seconds) {
+Vec3 exhibit_light(double seconds) {
     double angle = 2.0 * PI * seconds / 8.0, s = sin(angle), c = cos(angle);
     Vec3 from = first_light;
-    ((Exhibit *)data)->light = v3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
+    return v3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
 }
+
+void exhibit_move(void *data, double seconds) { ((Exhibit *)data)->light = exhibit_light(seconds); }
 
 /* ---- The truth: rays against the object itself ---- */
 
@@ -178,7 +179,9 @@ void exhibit_prepare(const Frame *frame) {
     Warp *warp = &exhibit->warp;
     Eye eye = exhibit_eye(&frame->camera);
     int variant = frame->technique->variant, samples = frame->knob > 0.0 ? (int)frame->knob : SAMPLES_USUAL;
-    if (samples != 1 && samples != 2 && samples != 4) fail("%g samples: there are 1, 2 or 4", frame->knob);
+    bool whole = !(frame->knob > 0.0) || samples == frame->knob;
+    if (!whole || (samples != 1 && samples != 2 && samples != 4))
+        fail("%g samples: there are 1, 2 or 4", frame->knob);
     use_warp(exhibit, exhibit->boxes[WALLS_SHARED].faces[0].width, samples);
     const Box *box = box_for(exhibit, variant);
     if (variant == EXHIBIT_FLAT)

@@ -25,6 +25,9 @@ void exhibit_move(void *data, double seconds);
 Sample exhibit_truth(const void *data, Ray ray);
 void exhibit_measure(const Shots *shots, Table *table);
 
+/* The unit vector toward the light: once around the vertical axis in eight seconds, from +z over +x. */
+Vec3 exhibit_light(double seconds);
+
 /* The eye of a camera. */
 Eye exhibit_eye(const Camera *camera);
 

@@ -6,7 +6,6 @@ in vec3 position, normal;
 in vec4 tangent;
 
 uniform vec4 eye, light;
-uniform float eye_plane;
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 lookup;
@@ -15,6 +14,5 @@ void main() {
     vec3 toward = eye.xyz - eye.w * position;
     vec3 own = tangent.w > 0.5 ? bunny_tone(position) : toy_tone(position) * tangent.xyz;
     colour = vec4(lit(own, normalize(normal), light.xyz, normalize(toward)), 1.0);
-    float depth = eye.w > 0.0 ? length(toward) : eye_plane - dot(position, eye.xyz);
-    lookup = vec4(0.0, 0.0, depth, 1.0);
+    lookup = vec4(0.0, 0.0, 0.0, 1.0); // for the silhouette
 }

@@ -5,7 +5,6 @@ in vec3 position;
 in vec2 uv;
 
 uniform vec4 eye, light, background;
-uniform float eye_plane;
 uniform sampler2D colour_map, normal_map;
 
 layout(location = 0) out vec4 colour;
@@ -19,6 +18,5 @@ void main() {
     vec3 seen = lit(stored_colour(texel), stored_normal(textureLod(normal_map, uv, 0.0)), light.xyz,
                     normalize(toward));
     colour = vec4(mix(background.rgb, seen, covered), 1.0);
-    float depth = eye.w > 0.0 ? length(toward) : eye_plane - dot(position, eye.xyz);
-    lookup = vec4(uv, depth, covered >= 0.5 ? 1.0 : 0.0);
+    lookup = vec4(uv, 0.0, covered >= 0.5 ? 1.0 : 0.0); // for the silhouette: the surface's depth is not known
 }
