@@ -35,7 +35,8 @@ $(B)/assets/terrain-relief.png: $(B)/terrain $(B)/assets/topography.png
 	$(call say,TERRAIN,$@)
 	$(Q)$(B)/terrain $(B)/assets >$(B)/terrain.log
 
-$(OBJECTS) &: $(B)/object $(B)/assets/bunny.obj common/object.c
+# Of the library, what these pictures show is in four of its files.
+$(OBJECTS) &: $(B)/object $(B)/assets/bunny.obj $(addprefix common/,object.c solid.c mesh_file.c mesh_rays.c)
 	$(call say,OBJECT,$(B)/assets)
 	$(Q)$(B)/object $(B)/assets >$(B)/object.log
 

@@ -8,7 +8,8 @@
 #include "mesh.h"
 #include "solid.h"
 
-/* Of the toy, no point is hidden from all six directions of the axes. */
+/* Of the toy, no point is hidden from all six directions of the axes, but for a ring 0.0006 wide on the body
+ * around the sphere in front, whose widest circle lies 0.02 before it. */
 enum { TOY_SOLIDS = 8 };
 extern const Solid toy_solids[TOY_SOLIDS];
 extern const Vec3 toy_box; /* its box's width, height and depth */
