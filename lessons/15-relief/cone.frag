@@ -3,4 +3,4 @@
 
 uniform sampler2D cone_map, corner_map;
 
-float search(HeightRay ray) { return cone(cone_map, corner_map, ray, int(knob)); }
+float search(HeightRay ray) { return cone(cone_map, corner_map, ray, steps()); }

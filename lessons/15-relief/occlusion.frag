@@ -1,3 +1,3 @@
 #include "march.inc"
 
-float search(HeightRay ray) { return occlusion(height_map, ray, int(knob)); }
+float search(HeightRay ray) { return occlusion(height_map, ray, steps()); }

@@ -1,3 +1,3 @@
 #include "march.inc"
 
-float search(HeightRay ray) { return relief(height_map, ray, int(knob), 6); }
+float search(HeightRay ray) { return relief(height_map, ray, steps(), 6); }
