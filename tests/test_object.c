@@ -11,17 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-static uint64_t seed = 1;
-
-static double random_in(double low, double high) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17; /* xorshift */
-    return low + (high - low) * (double)(seed >> 11) * 0x1p-53;
-}
-
-static void near(double value, double expected, double bound) {
-    if (!(fabs(value - expected) <= bound))
-        fail_msg("got %.17g, expected %.17g within %g", value, expected, bound);
-}
+#include "random.h" /* behind cmocka.h */
 
 static void same_place(Vec3 a, Vec3 b, double bound) { near(vec3_length(vec3_sub(a, b)), 0, bound); }
 

@@ -9,17 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-static uint64_t seed = 1;
-
-static double random_in(double low, double high) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17; /* xorshift */
-    return low + (high - low) * (double)(seed >> 11) * 0x1p-53;
-}
-
-static void near(double value, double expected, double bound) {
-    if (!(fabs(value - expected) <= bound))
-        fail_msg("got %.17g, expected %.17g within %g", value, expected, bound);
-}
+#include "random.h" /* behind cmocka.h */
 
 static Ray ray_between(Vec3 from, Vec3 to) { return (Ray){from, vec3_normalize(vec3_sub(to, from))}; }
 

@@ -8,29 +8,7 @@
 #include <cmocka.h>
 #include <stdint.h>
 
-static uint64_t seed = 1;
-
-static double random_in(double low, double high) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17; /* xorshift */
-    return low + (high - low) * (double)(seed >> 11) * 0x1p-53;
-}
-
-static Vec3 random_vector(double low, double high) {
-    double x = random_in(low, high), y = random_in(low, high);
-    return v3(x, y, random_in(low, high));
-}
-
-static Vec3 random_direction(void) {
-    for (;;) {
-        Vec3 v = random_vector(-1, 1);
-        if (vec3_dot(v, v) < 1 && vec3_dot(v, v) > 0.01) return vec3_normalize(v);
-    }
-}
-
-static void near(double value, double expected, double bound) {
-    if (!(fabs(value - expected) <= bound))
-        fail_msg("got %.17g, expected %.17g within %g", value, expected, bound);
-}
+#include "random.h" /* behind cmocka.h */
 
 static Solid random_solid(SolidKind kind) {
     return (Solid){.kind = kind,
