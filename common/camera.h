@@ -50,8 +50,8 @@ Camera camera_mix(const Camera *a, const Camera *b, double t);
  * over the poles. */
 void camera_orbit(Camera *camera, double right, double up);
 
-/* Moves eye and target together, to the right and up, by parts of the height that the picture shows of the world
- * at the target. */
+/* Moves eye and target together, to the right and up, by parts of the height that the picture shows of the
+ * world at the target. */
 void camera_pan(Camera *camera, double right, double up);
 
 /* Makes what is at the target look `factor` times as large: by coming nearer, or where that changes nothing,

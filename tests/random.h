@@ -1,5 +1,5 @@
-/* What several tests need: numbers that look random and are the same in every run, and doubles compared. Included
- * behind cmocka.h. */
+/* What several tests need: numbers that look random and are the same in every run, and doubles compared.
+ * Included behind cmocka.h. */
 #ifndef TESTS_RANDOM_H
 #define TESTS_RANDOM_H
 

@@ -24,7 +24,8 @@ static double uniform(double low, double high) { return low + (high - low) * ran
 static int whole(int low, int high) { return low + (int)(random_bits() % (uint32_t)(high - low + 1)); }
 
 static Image image_new(int width, int height, int channels) {
-    Image image = {width, height, channels, .bits = 32, .pixels = calloc((size_t)width * height * channels, 4)};
+    Image image = {width, height, channels, .bits = 32,
+                   .pixels = calloc((size_t)width * height * channels, 4)};
     assert_non_null(image.pixels);
     return image;
 }

@@ -1,6 +1,7 @@
-/* The pre-warp: a relief texture moved, texel by texel, into a flat image that then is mapped onto the polygon
- * as any texture is. See common/prewarp.h for the equations; the ways to warp differ in how texels that land on
- * one another are told apart, in how the holes between them are filled, and in the order of the work. */
+/* The pre-warp: a relief texture moved, texel by texel, into a flat image that then is mapped onto the
+ * polygon as any texture is. See common/prewarp.h for the equations; the ways to warp differ in how texels
+ * that land on one another are told apart, in how the holes between them are filled, and in the order of the
+ * work. */
 #ifndef LESSON_WARP_H
 #define LESSON_WARP_H
 
@@ -39,8 +40,8 @@ Source source_create(const Image *colour, const Image *heights, const Image *nor
                      double base);
 void source_destroy(Source *source);
 
-/* A destination of width x height texels over low..high; destination_destroy frees it. With lookup, where each
- * texel came from is kept too, which costs time. */
+/* A destination of width x height texels over low..high; destination_destroy frees it. With lookup, where
+ * each texel came from is kept too, which costs time. */
 Destination destination_create(int width, int height, Vec2 low, Vec2 high, bool lookup);
 void destination_destroy(Destination *destination);
 
