@@ -119,9 +119,11 @@ struct Scene {
     const char *colour, *height; /* assets by file name; --colour and --height replace them */
     const char *other[2];        /* assets that cannot be replaced */
     Fact facts[FACTS_MAX];
-    int samples;    /* rays a pixel of the truth; 0: SAMPLES */
-    bool gaussian;  /* report against the Gaussian pixel filter too */
-    Camera path[2]; /* for `flicker`, 16 frames from one to the other; none where both are 0 */
+    int samples;       /* rays a pixel of the truth; 0: SAMPLES */
+    bool brief_extras; /* with --brief no rmse, psnr_db and max_abs of extra views: their exact pictures take
+                          long */
+    bool gaussian;     /* report against the Gaussian pixel filter too */
+    Camera path[2];    /* for `flicker`, 16 frames from one to the other; none where both are 0 */
     void *(*load)(const Options *options); /* with the context current */
     void (*unload)(void *data);
     /* For the shader view_projection, model (identity), eye, eye_plane, knob, variant and size are set. */

@@ -127,6 +127,7 @@ static void report_difference(Session *session, const Variant *variant, Image *p
     static const char *const units[] = {"linear", "dB", "linear", "1"};
     const Scene *scene = session->stage.scene;
     const char *view = reference->view->name, *errors = NULL;
+    if (scene->brief_extras && !is_shown(session->choice, reference->view)) return;
     if (filter == FILTER_BOX && is_shown(session->choice, reference->view)) errors = session->orders->errors;
     bool wanted[4], any = errors != NULL;
     for (int i = 0; i < 4; i++) {

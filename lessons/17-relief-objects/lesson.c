@@ -55,7 +55,7 @@
 
 /* ---- The scenes ---- */
 
-#define EXHIBIT .techniques = {TECHNIQUES}, .background = {0.02, 0.02, 0.02}, .samples = 18, \
+#define EXHIBIT .techniques = {TECHNIQUES}, .background = {0.02, 0.02, 0.02}, .samples = 18, .brief_extras = true, \
     .unload = exhibit_unload, .draw = exhibit_draw, .move = exhibit_move, .truth = exhibit_truth, .measure = exhibit_measure
 
 static const Lesson lesson = {
