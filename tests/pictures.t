@@ -64,20 +64,18 @@ sub check {
     pass("$name = $value");
 }
 
-sub check_golden { # all of a lesson's; those of one view are drawn by one process
+sub check_golden { # all of a lesson's, drawn into a folder of its own, for lessons are checked side by side
     my ($lesson, @paths) = @_;
-    my (%of_view, @pairs);
+    my ($into, @pairs) = "$folder/$lesson";
+    make_path($into);
     for my $path (@paths) {
         my ($scene, $view, $technique, $knob) = $path =~ m{/[^./]+\.([^.]+)\.([^.]+)\.([^.]+?)(?:\.([0-9.]+))?\.png$}
             or return fail("$path: a golden picture is LESSON.SCENE.VIEW.TECHNIQUE[.KNOB].png");
-        push @{ $of_view{"--scene $scene --view $view"} }, $technique eq 'truth' ? "--truth $folder"
-            : "--render $folder --technique $technique" . (defined $knob ? " --knob $knob" : '');
-        push @pairs, "$folder/" . join('-', $scene, $view, $technique, $knob // ()) . ".png $path";
-    }
-    for my $view (sort keys %of_view) {
-        my @each = @{ $of_view{$view} };
-        @each = ("--render $folder --truth $folder") if @each > 1;
-        system("build/$lesson --size $size $view @each 2>/dev/null") == 0 or return fail("$view: cannot be drawn");
+        my $drawn = $technique eq 'truth' ? "--truth $into" : "--render $into --technique $technique";
+        $drawn .= " --knob $knob" if defined $knob;
+        system("build/$lesson --size $size --scene $scene --view $view $drawn 2>/dev/null") == 0
+            or return fail("$path: cannot be drawn");
+        push @pairs, "$into/" . join('-', $scene, $view, $technique, $knob // ()) . ".png $path";
     }
     my @differences = `build/tests/png_difference @pairs`;
     is(@differences, @paths, "$lesson: all golden pictures can be compared");
