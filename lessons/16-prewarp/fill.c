@@ -65,7 +65,8 @@ static const float SLACK = 1e-4f;
  * lies in the cell. */
 #define CHOOSE(n, after, b, r, t, l, u, v, here)                                                             \
     {                                                                                                        \
-        Ints inside = ((b) >= -SLACK) & ((r) >= -SLACK) & ((t) >= -SLACK) & ((l) >= -SLACK) & (here);        \
+        Floats least0 = LEAST(b, r), least1 = LEAST(t, l), least = LEAST(least0, least1);                    \
+        Ints inside = (least >= -SLACK) & (here);                                                            \
         Ints at = (start + (after)) | ~inside; /* NOTHING is -1 */                                           \
         Floats at_u = GREATEST(u, u_left), at_v = GREATEST(v, low_v);                                        \
         at_u = LEAST(at_u, u_right), at_v = LEAST(at_v, high_v);                                             \
@@ -118,8 +119,10 @@ WIDE static void cells_sort(const Painter *painter) {
         Floats d = x11 * y00 - y11 * x00, e = x10 * y01 - y10 * x01;
         /* The four triangles of three corners: all turn left in a convex cell, none in one turned over. */
         Floats t0 = b + r + d, t1 = t + l - d, t2 = b + l + e, t3 = r + t - e;
-        some &= (t0 > zero) | (t1 > zero) | (t2 > zero) | (t3 > zero);
-        Ints convex = (t0 > zero) & (t1 > zero) & (t2 > zero) & (t3 > zero);
+        min0 = LEAST(t0, t1), min1 = LEAST(t2, t3), max0 = GREATEST(t0, t1), max1 = GREATEST(t2, t3);
+        Floats least_turn = LEAST(min0, min1), greatest_turn = GREATEST(max0, max1);
+        Ints convex = least_turn > zero;
+        some &= greatest_turn > zero;
         Ints wider = columns > 1, higher = rows > 1, easy = some & convex & (columns <= 2) & (rows <= 2);
         Ints more = easy & (wider | higher), most = easy & wider & higher, odd = some & ~easy;
         Ints kinds = (some & SOME) | (more & MORE) | (most & MOST) | (odd & ODD);
@@ -477,7 +480,7 @@ WIDE static void fetch_texels(const Source *source, const uint8_t *origins, size
         x = x >> 8 & 255, y = y >> 8 & 255;
         Ints s = x | x << 16, t = y | y << 16;
         FETCH_FOUR(0)
-        FETCH_FOUR(4)
+        if (LANES > 4) FETCH_FOUR(4)
         if (ANY(edge))
             for (int k = 0; k < LANES; k++)
                 if (edge[k]) texels[n + k] = texel_at(source, origin[k]);
