@@ -12,7 +12,7 @@
 
 enum { ROUNDS_MIN = 3, ROUNDS = 7, ROUNDS_MAX = 41, PATH_FRAMES = 16 };
 static const double SPEED_SECONDS = 0.5; /* after which no round more than ROUNDS is begun, */
-static const double SLOW_SECONDS = 4.0;  /* and none more than ROUNDS_MIN */
+static const double SLOW_SECONDS = 1.5;  /* and none more than ROUNDS_MIN */
 
 /* One technique with one value of its knob. */
 typedef struct {
