@@ -8,9 +8,10 @@
 
 #include <stdlib.h>
 
-/* What is wrong with one way's warped texture from one view, in percent. */
+/* What is wrong with one way's warped texture from one view: the rms error of its colours, the rest in
+ * percent. */
 typedef struct {
-    double holes, violations, lost, first_pass_loss;
+    double holes, violations, lost, rmse, first_pass_loss;
 } Figure;
 
 /* A judge takes long to make, and is the same for all techniques: so the first that is measured from a view
@@ -52,6 +53,7 @@ static Figure judge_way(const Judge *judge, const Prewarp *prewarp, Way way, Eye
     figure.holes = judge_hole_percent(judge, destination);
     figure.violations = judge_order_violation_percent(judge, destination);
     figure.lost = lost_texels(judge, prewarp, way, eye);
+    figure.rmse = judge_rmse(judge, destination);
     return figure;
 }
 
@@ -96,14 +98,16 @@ static const Figure *figure_of(const Shots *shots, int view) {
 
 static void add_figures(const Shots *shots, int index, Table *table) {
     static const char *const names[] = {"hole_percent", "order_violation_percent", "lost_texel_percent",
-                                        "first_pass_loss_percent"};
+                                        "texel_rmse", "first_pass_loss_percent"};
+    static const char *const units[] = {"%", "%", "%", "linear", "%"};
     const View *view = shots->shots[index].view;
     bool two_pass = shots->frame->technique->variant == TWO_PASS, wanted = false;
-    for (int i = 0; i < 4; i++) wanted = wanted || shots_want(shots, view, names[i]);
+    for (int i = 0; i < 5; i++) wanted = wanted || shots_want(shots, view, names[i]);
     if (!wanted) return;
     const Figure *figure = figure_of(shots, index);
-    const double values[] = {figure->holes, figure->violations, figure->lost, figure->first_pass_loss};
-    for (int i = 0; i < (two_pass ? 4 : 3); i++) table_add(table, shots, view, names[i], values[i], "%");
+    const double values[] = {figure->holes, figure->violations, figure->lost, figure->rmse,
+                             figure->first_pass_loss};
+    for (int i = 0; i < (two_pass ? 5 : 4); i++) table_add(table, shots, view, names[i], values[i], units[i]);
 }
 
 static void add_pace(const Shots *shots, int index, Table *table) {
