@@ -75,11 +75,17 @@ Texture texture_empty(int width, int height, TextureFormat format, TextureFilter
     return texture;
 }
 
-void texture_write(const Texture *texture, TextureFormat format, const void *texels) {
+void texture_write_part(const Texture *texture, TextureFormat format, int x, int y, int width, int height,
+                        const void *texels) {
     gl.BindTexture(GL_TEXTURE_2D, texture->id);
-    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texture->width, texture->height, GL_RGBA,
-                     format == TEXTURE_SRGBA8 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT, texels);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, x, y, width, height, format == TEXTURE_SRGB8 ? GL_RGB : GL_RGBA,
+                     format == TEXTURE_RGBA16 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, texels);
     draw_check("writing a texture");
+}
+
+void texture_write(const Texture *texture, TextureFormat format, const void *texels) {
+    texture_write_part(texture, format, 0, 0, texture->width, texture->height, texels);
 }
 
 void texture_mipmap(Texture *texture) {

@@ -66,6 +66,9 @@ Texture texture_of(const Image *image, ImageKind kind);
  * It does not repeat: beyond its edges the outermost texels go on. What it holds before is not defined. */
 Texture texture_empty(int width, int height, TextureFormat format, TextureFilter filter);
 void texture_write(const Texture *texture, TextureFormat format, const void *texels);
+/* The same for width x height texels whose lower left one is (x, y). TEXTURE_SRGB8: three bytes a texel. */
+void texture_write_part(const Texture *texture, TextureFormat format, int x, int y, int width, int height,
+                        const void *texels);
 
 void texture_mipmap(Texture *texture); /* glGenerateMipmap, and TEXTURE_TRILINEAR */
 void texture_destroy(Texture *texture);

@@ -1,7 +1,7 @@
 /* Several numbers at a time: the compiler's own vectors, which it turns into the machine's SIMD. What works
  * on them are macros, for a function may not take a vector wider than the machine surely has. */
-#ifndef LESSON_LANES_H
-#define LESSON_LANES_H
+#ifndef TEXEL_LANES_H
+#define TEXEL_LANES_H
 
 #include <stdint.h>
 #include <string.h>

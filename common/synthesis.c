@@ -1,0 +1,612 @@
+#include "synthesis.h"
+
+#include "fail.h"
+#include "image.h"
+#include "lanes.h"
+#include "parallel.h"
+
+#include <stdlib.h>
+
+enum { BYTES_TABLE = 65536, BLOCKS_AT_ONCE = 16 };
+
+/* The directions of one sample of every texel, d = (cos beta sin alpha, sin beta, cos beta cos alpha) in the
+ * local frame: columns along s, rows along t. Columns go on to a multiple of LANES. */
+typedef struct {
+    CellPlace place;
+    float *sin_alpha, *cos_alpha, *sin_beta, *cos_beta;
+} Grid;
+
+struct Synthesis {
+    const Field *field;
+    const LightScene *scene;
+    bool through;
+    int samples, stride; /* stride: columns of a row in memory */
+    Grid *grids;
+    uint8_t bytes[BYTES_TABLE]; /* sRGB of linear light i / 65535 */
+};
+
+/* ---- Samples ---- */
+
+static double fraction(double x) { return x - floor(x); }
+
+CellPlace synthesis_place(int i) {
+    const double p = 1.1673039782614187; /* of p^5 = p + 1 */
+    double a = 1.0 / p;
+    return (CellPlace){fraction(0.5 + i * a), fraction(0.5 + i * a * a), fraction(0.5 + i * a * a * a),
+                       fraction(0.5 + i * a * a * a * a)};
+}
+
+static Grid grid_create(const Field *field, int stride, CellPlace place) {
+    Grid grid = {.place = place};
+    grid.sin_alpha = allocate(2 * (size_t)(stride + field->t), sizeof(float));
+    grid.cos_alpha = grid.sin_alpha + stride;
+    grid.sin_beta = grid.cos_alpha + stride;
+    grid.cos_beta = grid.sin_beta + field->t;
+    const FieldFrame own = {.e_x = {1, 0, 0}, .e_y = {0, 1, 0}, .e_z = {0, 0, 1}};
+    for (int i = 0; i < stride; i++) {
+        Vec3 d = field_direction(field, &own, fmin((i + place.s) / field->s, 1.0), 0.5);
+        grid.sin_alpha[i] = (float)d.x, grid.cos_alpha[i] = (float)d.z;
+    }
+    for (int i = 0; i < field->t; i++) {
+        Vec3 d = field_direction(field, &own, 0.5, (i + place.t) / field->t);
+        grid.sin_beta[i] = (float)d.y, grid.cos_beta[i] = (float)d.z;
+    }
+    return grid;
+}
+
+Synthesis *synthesis_create(const Field *field, const LightScene *scene, int samples, bool through) {
+    if (field_refused(field)) fail("a light field of %dx%dx%dx%d: %s", field->u, field->v, field->s, field->t,
+                                   field_refused(field));
+    Synthesis *synthesis = allocate(1, sizeof *synthesis);
+    synthesis->field = field, synthesis->scene = scene, synthesis->through = through;
+    synthesis->samples = samples, synthesis->stride = (field->s + LANES - 1) / LANES * LANES;
+    synthesis->grids = allocate((size_t)samples, sizeof(Grid));
+    for (int k = 0; k < samples; k++)
+        synthesis->grids[k] = grid_create(field, synthesis->stride, synthesis_place(k));
+    for (int i = 0; i < BYTES_TABLE; i++) synthesis->bytes[i] = srgb_byte((float)(i / (BYTES_TABLE - 1.0)));
+    return synthesis;
+}
+
+void synthesis_destroy(Synthesis *synthesis) {
+    for (int k = 0; k < synthesis->samples; k++) free(synthesis->grids[k].sin_alpha);
+    free(synthesis->grids);
+    free(synthesis);
+}
+
+/* ---- A solid in the frame of a block, whose origin is where the rays start ---- */
+
+typedef struct {
+    float x, y, z;
+} Point;
+
+typedef struct {
+    SolidKind kind;
+    Point centre, axis[3], half, colour; /* axis: the solid's own, as they lie in the frame */
+    Point around[3];                     /* centre x axis */
+    float along[3];                      /* centre . axis */
+    int first_row, last_row, first_column, last_column; /* of the rays that may meet it */
+} Local;
+
+typedef struct {
+    Local solids[LIGHT_SOLIDS];
+    Point light;
+    int first_row, last_row; /* that any ray meets anything in */
+} Stand;
+
+static Point point_in(const FieldFrame *frame, Vec3 v) {
+    return (Point){(float)vec3_dot(v, frame->e_x), (float)vec3_dot(v, frame->e_y),
+                   (float)vec3_dot(v, frame->e_z)};
+}
+
+static float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static Point cross(Point a, Point b) {
+    return (Point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static Point scaled(Point a, float s) { return (Point){a.x * s, a.y * s, a.z * s}; }
+static Point sum(Point a, Point b) { return (Point){a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+/* The solid's own axes in the world, turned about x, y, z in that order. Only their number of turns makes
+ * this slow; few solids are turned at all. */
+static void axes_of(const Solid *solid, Vec3 axes[3]) {
+    for (int i = 0; i < 3; i++) {
+        Vec3 p = v3(i == 0, i == 1, i == 2), by = solid->turn_degrees;
+        if (by.x != 0.0) {
+            double s = sin(radians(by.x)), c = cos(radians(by.x));
+            p = v3(p.x, c * p.y - s * p.z, s * p.y + c * p.z);
+        }
+        if (by.y != 0.0) {
+            double s = sin(radians(by.y)), c = cos(radians(by.y));
+            p = v3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+        }
+        if (by.z != 0.0) {
+            double s = sin(radians(by.z)), c = cos(radians(by.z));
+            p = v3(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+        }
+        axes[i] = p;
+    }
+}
+
+/* From an angle (radians) to 0..1. */
+static float stored(FieldAngles angles, float a) {
+    const float right = (float)(0.5 * PI);
+    a = a < -right ? -right : a > right ? right : a;
+    if (angles == ANGLES_SINE) return 0.5f + 0.5f * sinf(a);
+    if (angles == ANGLES_STEREOGRAPHIC) return 0.5f + 0.5f * tanf(0.5f * a);
+    return 0.5f + a * (float)(1.0 / PI);
+}
+
+/* The texels whose samples may lie between two angles; one more on each side, for rounding. */
+static void span_of(FieldAngles angles, float low, float high, int count, float place, int *first, int *last) {
+    *first = (int)ceilf(stored(angles, low) * (float)count - place) - 1;
+    *last = (int)floorf(stored(angles, high) * (float)count - place) + 1;
+    if (*first < 0) *first = 0;
+    if (*last > count - 1) *last = count - 1;
+}
+
+/* The rectangle of rays that may meet a sphere around the solid: the cone of half angle gamma around the
+ * direction d from it, between two parallels, and two meridians that touch it. */
+static void bound(const Synthesis *synthesis, const Grid *grid, float reach, Local *local) {
+    const Field *field = synthesis->field;
+    const float half_turn = (float)PI, right = (float)(0.5 * PI);
+    float low_beta = -right, high_beta = right, low_alpha = -half_turn, high_alpha = half_turn;
+    float distance = sqrtf(dot(local->centre, local->centre));
+    if (distance > reach && !synthesis->through) {
+        Point d = scaled(local->centre, -1.0f / distance);
+        float sine = reach / distance, gamma = asinf(sine), level = sqrtf(d.x * d.x + d.z * d.z);
+        float beta = atan2f(d.y, level);
+        low_beta = beta - gamma, high_beta = beta + gamma;
+        if (level > sine) {
+            float alpha = atan2f(d.x, d.z), aside = asinf(sine / level);
+            low_alpha = alpha - aside, high_alpha = alpha + aside;
+        }
+    }
+    span_of(field->angles, low_beta, high_beta, field->t, (float)grid->place.t, &local->first_row,
+            &local->last_row);
+    span_of(field->angles, low_alpha, high_alpha, field->s, (float)grid->place.s, &local->first_column,
+            &local->last_column);
+    if (low_alpha > right || high_alpha < -right) local->last_row = local->first_row - 1; /* behind the point */
+}
+
+static float reach_of(const Solid *solid) {
+    Vec3 size = solid->size;
+    if (solid->kind == SOLID_SPHERE) return (float)(0.5 * size.x);
+    if (solid->kind == SOLID_CYLINDER) return (float)(0.5 * hypot(size.x, size.y));
+    return (float)(0.5 * vec3_length(size));
+}
+
+static Stand stand_at(const Synthesis *synthesis, const Grid *grid, const FieldFrame *frame) {
+    const LightScene *scene = synthesis->scene;
+    Stand stand = {.light = point_in(frame, scene->toward_light), .first_row = synthesis->field->t};
+    stand.last_row = -1;
+    for (int i = 0; i < scene->count; i++) {
+        const Solid *solid = &scene->solids[i];
+        Local *local = &stand.solids[i];
+        local->kind = solid->kind;
+        local->centre = point_in(frame, vec3_sub(solid->centre, frame->at));
+        local->half = (Point){(float)(0.5 * solid->size.x), (float)(0.5 * solid->size.y),
+                              (float)(0.5 * solid->size.z)};
+        local->colour = (Point){(float)solid->colour.x, (float)solid->colour.y, (float)solid->colour.z};
+        bound(synthesis, grid, reach_of(solid), local);
+        if (local->first_row > local->last_row || local->first_column > local->last_column) continue;
+        if (local->first_row < stand.first_row) stand.first_row = local->first_row;
+        if (local->last_row > stand.last_row) stand.last_row = local->last_row;
+        if (solid->kind == SOLID_SPHERE) continue;
+        Vec3 axes[3];
+        axes_of(solid, axes);
+        for (int k = 0; k < 3; k++) {
+            local->axis[k] = point_in(frame, axes[k]);
+            local->around[k] = cross(local->centre, local->axis[k]);
+            local->along[k] = dot(local->centre, local->axis[k]);
+        }
+    }
+    return stand;
+}
+
+/* ---- Eight rays at once: t w, where w = -d ---- */
+
+typedef struct {
+    Floats x, y, z;
+} Points;
+
+typedef struct {
+    Floats t;
+    Points normal;
+    Ints met;
+} Meeting;
+
+#define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
+#define ROOT(a)                                                                                              \
+    __extension__({                                                                                          \
+        Floats a_ = (a), b_;                                                                                 \
+        for (int k_ = 0; k_ < LANES; k_++) b_[k_] = __builtin_sqrtf(a_[k_]);                                 \
+        b_;                                                                                                  \
+    })
+/* `of` with the sign of `by`. */
+#define SIGNED(of, by) ((Floats)((Ints)ALL(of) | ((Ints)(by) & INT32_MIN)))
+
+INLINE void meet_sphere(const Local *local, const Points *way, float start, Meeting *meeting) {
+    const Points w = *way;
+    Floats passing = DOT(w, local->centre); /* where the ray passes the centre, and by how much */
+    Points off = {passing * w.x - local->centre.x, passing * w.y - local->centre.y,
+                  passing * w.z - local->centre.z};
+    float radius = local->half.x;
+    Floats inside = radius * radius - DOT(off, off), deep = ROOT(GREATEST(inside, ALL(0.0f)));
+    meeting->t = passing - deep;
+    meeting->met = (inside >= 0.0f) & (meeting->t >= start);
+    float scale = 1.0f / radius;
+    meeting->normal = (Points){(off.x - deep * w.x) * scale, (off.y - deep * w.y) * scale,
+                              (off.z - deep * w.z) * scale};
+}
+
+/* Within the round: |t w - c|, without its part along the axis, is the radius. The discriminant is
+ * A r^2 - (w . (c x axis))^2, which does not cancel. */
+INLINE void meet_cylinder(const Local *local, const Points *way, float start, Meeting *meeting) {
+    const Points w = *way;
+    Point axis = local->axis[1];
+    float radius = local->half.x, along = local->along[1];
+    Floats w_along = DOT(w, axis), a = GREATEST(1.0f - w_along * w_along, ALL(1e-20f));
+    Floats b = DOT(w, local->centre) - w_along * along, c = DOT(w, local->around[1]);
+    Floats inside = a * (radius * radius) - c * c, root = ROOT(GREATEST(inside, ALL(0.0f)));
+    Floats side = SIGNED(local->half.y, w_along);
+    Floats enter = (b - root) / a, leave = (b + root) / a;
+    Floats near = (along - side) / w_along, far = (along + side) / w_along;
+    Ints flat = near > enter;
+    meeting->t = PICK(flat, near, enter);
+    meeting->met = (inside >= 0.0f) & (meeting->t <= leave) & (meeting->t <= far) & (meeting->t >= start);
+    Floats up = -SIGNED(1.0f, w_along);
+    float scale = 1.0f / radius;
+    Points at = {meeting->t * w.x - local->centre.x, meeting->t * w.y - local->centre.y,
+                 meeting->t * w.z - local->centre.z};
+    Floats at_along = DOT(at, axis);
+    meeting->normal = (Points){PICK(flat, up * axis.x, (at.x - at_along * axis.x) * scale),
+                              PICK(flat, up * axis.y, (at.y - at_along * axis.y) * scale),
+                              PICK(flat, up * axis.z, (at.z - at_along * axis.z) * scale)};
+}
+
+INLINE void meet_box(const Local *local, const Points *way, float start, Meeting *meeting) {
+    const Points w = *way;
+    const float halves[3] = {local->half.x, local->half.y, local->half.z};
+    meeting->t = ALL(-INFINITY);
+    Floats leave = ALL(INFINITY);
+    for (int k = 0; k < 3; k++) {
+        Point axis = local->axis[k];
+        Floats w_along = DOT(w, axis), side = SIGNED(halves[k], w_along), up = -SIGNED(1.0f, w_along);
+        Floats near = (local->along[k] - side) / w_along, far = (local->along[k] + side) / w_along;
+        Ints later = near > meeting->t;
+        meeting->t = PICK(later, near, meeting->t);
+        leave = LEAST(leave, far);
+        meeting->normal = (Points){PICK(later, up * axis.x, meeting->normal.x),
+                                  PICK(later, up * axis.y, meeting->normal.y),
+                                  PICK(later, up * axis.z, meeting->normal.z)};
+    }
+    meeting->met = (meeting->t <= leave) & (meeting->t >= start);
+}
+
+/* What light_scene.h says of a surface's light, for solids that nothing shades. */
+INLINE void shade(Point colour, Point light, const Meeting *meeting, const Points *way, Points *shaded) {
+    const Points normal = meeting->normal, w = *way;
+    Floats facing = DOT(normal, light), zero = ALL(0.0f);
+    Floats mirrored = DOT(w, light) - 2.0f * facing * DOT(normal, w); /* R.V with V = -w */
+    Floats shine = GREATEST(mirrored, zero);
+    shine *= shine, shine *= shine, shine *= shine, shine *= shine, shine *= shine; /* ^32 */
+    Ints lit = facing > 0.0f;
+    Floats diffuse = (float)LIGHT_AMBIENT + (float)LIGHT_DIFFUSE * PICK(lit, facing, zero);
+    Floats highlight = (float)LIGHT_SPECULAR * PICK(lit, shine, zero);
+    *shaded = (Points){colour.x * diffuse + highlight, colour.y * diffuse + highlight,
+                       colour.z * diffuse + highlight};
+}
+
+/* One sample of all texels of a block: the light, and how far away it comes from (NOTHING: from nowhere). */
+typedef struct {
+    float *depth, *light[3];
+    int32_t *index; /* of the solid */
+} Plane;
+
+static const float NOTHING = INFINITY;
+
+INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand *stand, int index,
+                       Plane *plane, SolidKind kind) {
+    const Local *local = &stand->solids[index];
+    float start = synthesis->through ? -INFINITY : 0.0f;
+    for (int row = local->first_row; row <= local->last_row; row++) {
+        float sine = grid->sin_beta[row], cosine = grid->cos_beta[row];
+        for (int column = local->first_column / LANES * LANES; column <= local->last_column; column += LANES) {
+            Floats sin_alpha, cos_alpha, depth;
+            LOAD(sin_alpha, grid->sin_alpha + column);
+            LOAD(cos_alpha, grid->cos_alpha + column);
+            Points w = {-cosine * sin_alpha, ALL(-sine), -cosine * cos_alpha};
+            Meeting meeting;
+            if (kind == SOLID_SPHERE) meet_sphere(local, &w, start, &meeting);
+            if (kind == SOLID_CYLINDER) meet_cylinder(local, &w, start, &meeting);
+            if (kind == SOLID_BOX) meet_box(local, &w, start, &meeting);
+            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
+            LOAD(depth, plane->depth + at);
+            Ints nearer = meeting.met & (meeting.t < depth);
+            if (!ANY(nearer)) continue;
+            depth = PICK(nearer, meeting.t, depth);
+            STORE(depth, plane->depth + at);
+            Points light;
+            shade(local->colour, stand->light, &meeting, &w, &light);
+            const Floats channels[3] = {light.x, light.y, light.z};
+            for (int k = 0; k < 3; k++) {
+                Floats before;
+                LOAD(before, plane->light[k] + at);
+                before = PICK(nearer, channels[k], before);
+                STORE(before, plane->light[k] + at);
+            }
+            if (!plane->index) continue;
+            Ints indices;
+            LOAD(indices, plane->index + at);
+            indices = (indices & ~nearer) | (nearer & index);
+            STORE(indices, plane->index + at);
+        }
+    }
+}
+
+WIDE static void cast_block(const Synthesis *synthesis, const Grid *grid, const Stand *stand, Plane *plane) {
+    for (int i = 0; i < synthesis->scene->count; i++) {
+        SolidKind kind = stand->solids[i].kind;
+        if (kind == SOLID_SPHERE) cast_solid(synthesis, grid, stand, i, plane, SOLID_SPHERE);
+        if (kind == SOLID_CYLINDER) cast_solid(synthesis, grid, stand, i, plane, SOLID_CYLINDER);
+        if (kind == SOLID_BOX) cast_solid(synthesis, grid, stand, i, plane, SOLID_BOX);
+    }
+}
+
+/* ---- Shadows, a mirror, transparency: a ray at a time ---- */
+
+typedef struct {
+    float t;
+    Point normal;
+    int index; /* -1: nothing is met */
+} Single;
+
+/* Narrows enter..leave of a line at + t way to between two planes at -half and half. */
+static bool between(float at, float way, float half, float *enter, float *leave, bool *entered) {
+    float near = (-copysignf(half, way) - at) / way, far = (copysignf(half, way) - at) / way;
+    *entered = near > *enter;
+    if (*entered) *enter = near;
+    if (far < *leave) *leave = far;
+    return *enter <= *leave;
+}
+
+static bool meet_one(const Local *local, Point origin, Point way, float *t, Point *normal) {
+    Point from = sum(origin, scaled(local->centre, -1.0f));
+    if (local->kind == SOLID_SPHERE) {
+        float passing = -dot(from, way);
+        Point off = sum(from, scaled(way, passing));
+        float inside = local->half.x * local->half.x - dot(off, off);
+        if (inside < 0.0f) return false;
+        *t = passing - sqrtf(inside);
+        *normal = scaled(sum(from, scaled(way, *t)), 1.0f / local->half.x);
+        return *t > 0.0f;
+    }
+    const float halves[3] = {local->half.x, local->half.y, local->half.z};
+    float enter = -INFINITY, leave = INFINITY;
+    int side = 1;
+    bool entered;
+    if (local->kind == SOLID_CYLINDER) {
+        float along = dot(from, local->axis[1]), w_along = dot(way, local->axis[1]);
+        Point at = sum(from, scaled(local->axis[1], -along));
+        Point w = sum(way, scaled(local->axis[1], -w_along));
+        float a = fmaxf(dot(w, w), 1e-20f), b = dot(at, w), c = dot(local->axis[1], cross(at, w));
+        float inside = a * local->half.x * local->half.x - c * c;
+        if (inside < 0.0f) return false;
+        enter = (-b - sqrtf(inside)) / a, leave = (-b + sqrtf(inside)) / a;
+        if (!between(along, w_along, local->half.y, &enter, &leave, &entered)) return false;
+        *normal = scaled(sum(at, scaled(w, enter)), 1.0f / local->half.x);
+        if (entered) *normal = scaled(local->axis[1], -copysignf(1.0f, w_along));
+    } else {
+        for (int k = 0; k < 3; k++) {
+            float w_along = dot(way, local->axis[k]);
+            if (!between(dot(from, local->axis[k]), w_along, halves[k], &enter, &leave, &entered)) return false;
+            if (entered) side = k;
+        }
+        *normal = scaled(local->axis[side], -copysignf(1.0f, dot(way, local->axis[side])));
+    }
+    *t = enter;
+    return enter > 0.0f;
+}
+
+static Single meet_first(const Synthesis *synthesis, const Stand *stand, int but, Point origin, Point way) {
+    Single first = {.t = INFINITY, .index = -1};
+    for (int i = 0; i < synthesis->scene->count; i++) {
+        float t;
+        Point normal;
+        if (i != but && meet_one(&stand->solids[i], origin, way, &t, &normal) && t < first.t)
+            first = (Single){t, normal, i};
+    }
+    return first;
+}
+
+static Point light_of(const Synthesis *synthesis, const Stand *stand, Single met, Point origin, Point way,
+                      bool mirrors) {
+    const LightScene *scene = synthesis->scene;
+    Point at = sum(origin, scaled(way, met.t)), colour = stand->solids[met.index].colour, unused;
+    float facing = dot(met.normal, stand->light), reaching = 1.0f, t;
+    for (int i = 0; i < scene->count && facing > 0.0f; i++)
+        if (i != met.index && meet_one(&stand->solids[i], at, stand->light, &t, &unused))
+            reaching *= (float)scene->clear[i];
+    if (facing <= 0.0f) reaching = 0.0f;
+    float shine = fmaxf(dot(way, stand->light) - 2.0f * facing * dot(met.normal, way), 0.0f);
+    for (int i = 0; i < 5; i++) shine *= shine; /* ^32 */
+    float diffuse = (float)LIGHT_AMBIENT + (float)LIGHT_DIFFUSE * facing * reaching;
+    float highlight = (float)LIGHT_SPECULAR * shine * reaching;
+    Point light = sum(scaled(colour, diffuse), (Point){highlight, highlight, highlight});
+    float mirror = mirrors ? (float)scene->mirror[met.index] : 0.0f, clear = (float)scene->clear[met.index];
+    light = scaled(light, 1.0f - mirror - clear);
+    Point mirrored = sum(way, scaled(met.normal, -2.0f * dot(met.normal, way)));
+    for (int k = 0; k < 2; k++) {
+        float share = k ? clear : mirror;
+        Point onward = k ? way : mirrored;
+        Single next = {.index = -1};
+        if (share > 0.0f) next = meet_first(synthesis, stand, met.index, at, onward);
+        if (next.index < 0) continue;
+        light = sum(light, scaled(light_of(synthesis, stand, next, at, onward, k && mirrors), share));
+    }
+    return light;
+}
+
+/* Replaces the plain light of what was met. */
+static void add_effects(const Synthesis *synthesis, const Grid *grid, const Stand *stand, Plane *plane) {
+    for (int row = stand->first_row; row <= stand->last_row; row++)
+        for (int column = 0; column < synthesis->field->s; column++) {
+            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
+            if (plane->depth[at] == NOTHING) continue;
+            float sine = grid->sin_beta[row], cosine = grid->cos_beta[row];
+            Point way = {-cosine * grid->sin_alpha[column], -sine, -cosine * grid->cos_alpha[column]};
+            Point origin = {0, 0, 0};
+            Single met = {.t = plane->depth[at], .index = plane->index[at]};
+            float t;
+            meet_one(&stand->solids[met.index], origin, way, &t, &met.normal);
+            Point light = light_of(synthesis, stand, met, origin, way, true);
+            plane->light[0][at] = light.x, plane->light[1][at] = light.y, plane->light[2][at] = light.z;
+        }
+}
+
+/* ---- Blocks ---- */
+
+/* What one thread works in: the sample that is being cast, and the sums of all. */
+typedef struct {
+    Plane plane, sums;
+    int32_t *hits;
+    void *memory;
+} Work;
+
+static Work work_create(const Synthesis *synthesis) {
+    size_t count = (size_t)synthesis->stride * (size_t)synthesis->field->t;
+    float *next = allocate(10 * count, sizeof(float));
+    Work work = {.memory = next};
+    for (int i = 0; i < 3; i++) work.plane.light[i] = next, next += count;
+    for (int i = 0; i < 3; i++) work.sums.light[i] = next, next += count;
+    work.plane.depth = next, next += count;
+    work.sums.depth = next, next += count;
+    work.hits = (int32_t *)next, next += count;
+    if (synthesis->scene->effects) work.plane.index = (int32_t *)next;
+    return work;
+}
+
+/* Adds a sample to the sums, rows first to last, the sums being 0 if it is the first. */
+WIDE static void add_plane(const Synthesis *synthesis, Work *work, int first, int last) {
+    size_t begin = (size_t)first * (size_t)synthesis->stride,
+           end = (size_t)(last + 1) * (size_t)synthesis->stride;
+    for (size_t at = begin; at < end; at += LANES) {
+        Floats depth, total;
+        Ints hits;
+        LOAD(depth, work->plane.depth + at);
+        Ints met = depth < NOTHING;
+        if (!ANY(met)) continue;
+        for (int k = 0; k < 3; k++) {
+            Floats light;
+            LOAD(light, work->plane.light[k] + at);
+            LOAD(total, work->sums.light[k] + at);
+            total += PICK(met, light, ALL(0.0f));
+            STORE(total, work->sums.light[k] + at);
+        }
+        LOAD(total, work->sums.depth + at);
+        total += PICK(met, depth, ALL(0.0f));
+        STORE(total, work->sums.depth + at);
+        LOAD(hits, work->hits + at);
+        hits -= met;
+        STORE(hits, work->hits + at);
+    }
+}
+
+/* All samples of one block, summed in work; returns the rows that hold anything. */
+typedef struct {
+    int first, last;
+} Rows;
+
+static void clear_rows(const Synthesis *synthesis, Work *work, int first, int last) {
+    size_t begin = (size_t)first * (size_t)synthesis->stride, count = (size_t)(last - first + 1) * (size_t)synthesis->stride;
+    for (int k = 0; k < 3; k++) memset(work->sums.light[k] + begin, 0, count * sizeof(float));
+    memset(work->sums.depth + begin, 0, count * sizeof(float));
+    memset(work->hits + begin, 0, count * sizeof(int32_t));
+}
+
+static Rows sum_block(const Synthesis *synthesis, Work *work, int u, int v) {
+    const Field *field = synthesis->field;
+    Rows rows = {field->t, -1};
+    for (int k = 0; k < synthesis->samples; k++) {
+        const Grid *grid = &synthesis->grids[k];
+        FieldFrame frame = field_frame(field, (u + grid->place.u) / field->u, (v + grid->place.v) / field->v);
+        Stand stand = stand_at(synthesis, grid, &frame);
+        if (stand.first_row > stand.last_row) continue;
+        if (rows.last < 0) {
+            rows = (Rows){stand.first_row, stand.last_row};
+            clear_rows(synthesis, work, rows.first, rows.last);
+        }
+        if (stand.first_row < rows.first) {
+            clear_rows(synthesis, work, stand.first_row, rows.first - 1);
+            rows.first = stand.first_row;
+        }
+        if (stand.last_row > rows.last) {
+            clear_rows(synthesis, work, rows.last + 1, stand.last_row);
+            rows.last = stand.last_row;
+        }
+        float *depth = work->plane.depth + (size_t)stand.first_row * (size_t)synthesis->stride;
+        size_t count = (size_t)(stand.last_row - stand.first_row + 1) * (size_t)synthesis->stride;
+        for (size_t i = 0; i < count; i++) depth[i] = NOTHING;
+        cast_block(synthesis, grid, &stand, &work->plane);
+        if (synthesis->scene->effects) add_effects(synthesis, grid, &stand, &work->plane);
+        add_plane(synthesis, work, stand.first_row, stand.last_row);
+    }
+    return rows;
+}
+
+static uint8_t byte_of(const Synthesis *synthesis, float light) {
+    return synthesis->bytes[(int)(fminf(light, 1.0f) * (BYTES_TABLE - 1) + 0.5f)];
+}
+
+static void write_block(const Synthesis *synthesis, const Work *work, Rows rows, uint8_t *texels, float *depths) {
+    const Field *field = synthesis->field;
+    float share = 1.0f / (float)synthesis->samples;
+    memset(texels, 0, field_block(field));
+    for (int i = 0; depths && i < field->s * field->t; i++) depths[i] = INFINITY;
+    for (int row = rows.first; row <= rows.last; row++)
+        for (int column = 0; column < field->s; column++) {
+            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column,
+                   to = (size_t)row * (size_t)field->s + (size_t)column;
+            if (!work->hits[at]) continue;
+            for (int k = 0; k < 3; k++)
+                texels[3 * to + (size_t)k] = byte_of(synthesis, work->sums.light[k][at] * share);
+            if (depths) depths[to] = work->sums.depth[at] / (float)work->hits[at];
+        }
+}
+
+/* ---- Rows of blocks, on all cores ---- */
+
+typedef struct {
+    const Synthesis *synthesis;
+    int first, per_row; /* runs of BLOCKS_AT_ONCE blocks, which are one thread's work */
+    uint8_t *texels;
+    float *depths;
+} Job;
+
+static void make_blocks(void *context, int i) {
+    const Job *job = context;
+    const Field *field = job->synthesis->field;
+    Work work = work_create(job->synthesis);
+    int v = i / job->per_row, begin = i % job->per_row * BLOCKS_AT_ONCE, end = begin + BLOCKS_AT_ONCE;
+    for (int u = begin; u < end && u < field->u; u++) {
+        size_t block = (size_t)v * (size_t)field->u + (size_t)u;
+        Rows rows = sum_block(job->synthesis, &work, u, job->first + v);
+        write_block(job->synthesis, &work, rows, job->texels + block * field_block(field),
+                    job->depths ? job->depths + block * (size_t)(field->s * field->t) : NULL);
+    }
+    free(work.memory);
+}
+
+void synthesis_rows(const Synthesis *synthesis, int first, int rows, uint8_t *texels, float *depths) {
+    int per_row = (synthesis->field->u + BLOCKS_AT_ONCE - 1) / BLOCKS_AT_ONCE;
+    Job job = {synthesis, first, per_row, texels, depths};
+    parallel_for(rows * per_row, make_blocks, &job);
+}
+
+void synthesis_texel(const Synthesis *synthesis, int u, int v, int s, int t, float *light) {
+    Work work = work_create(synthesis);
+    Rows rows = sum_block(synthesis, &work, u, v);
+    size_t at = (size_t)t * (size_t)synthesis->stride + (size_t)s;
+    bool any = t >= rows.first && t <= rows.last;
+    for (int k = 0; k < 3; k++) light[k] = any ? work.sums.light[k][at] / (float)synthesis->samples : 0.0f;
+    free(work.memory);
+}

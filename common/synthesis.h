@@ -1,0 +1,37 @@
+/* How a light-field texture is made: rays from the model's surface inward, for every texel.
+ *
+ * All rays of a block start at one point, and their directions are a grid of angles in its frame: so a solid
+ * is met by a rectangle of that grid, and only that is tried, eight rays at a time. (Nine of ten rays of the
+ * composed scene meet nothing.) Several rays a texel are spread over its cell of all four dimensions, each in
+ * the frame of its own (u, v): each is one more block, seen from a point a part of a texel away. */
+#ifndef TEXEL_SYNTHESIS_H
+#define TEXEL_SYNTHESIS_H
+
+#include "light_field.h"
+#include "light_scene.h"
+
+typedef struct Synthesis Synthesis;
+
+/* samples: rays a texel, from 1 (its centre) on, the first of a sequence whose every beginning is spread
+ * evenly. through: rays begin outside of everything, so that what lies in front of the model is recorded on
+ * it too, as an eye far away sees it; else they begin on the model. The field must not be refused; field and
+ * scene are kept by their addresses. synthesis_destroy frees it. */
+Synthesis *synthesis_create(const Field *field, const LightScene *scene, int samples, bool through);
+void synthesis_destroy(Synthesis *synthesis);
+
+/* The place of sample i in the cell of a texel, each of u, v, s, t in 0..1: the Kronecker sequence of the
+ * powers of 1/p, p^5 = p + 1 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018). */
+typedef struct {
+    double u, v, s, t;
+} CellPlace;
+CellPlace synthesis_place(int i);
+
+/* Makes the blocks of rows first to first + rows - 1 of v, on all cores: rows * field_row bytes into texels,
+ * and, where depths is not NULL, for every texel (u fastest block, then t, then s, as texels) the mean
+ * distance of what its rays met, INFINITY where that is nothing. */
+void synthesis_rows(const Synthesis *synthesis, int first, int rows, uint8_t *texels, float *depths);
+
+/* The linear light of one texel alone, three numbers. */
+void synthesis_texel(const Synthesis *synthesis, int u, int v, int s, int t, float *light);
+
+#endif
