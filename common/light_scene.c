@@ -25,19 +25,17 @@
 const LightScene light_composed = {.name = "composed", COMPOSED};
 const LightScene light_effects = {.name = "effects", COMPOSED, .effects = true,
                                   .mirror = {[0] = 0.6}, .clear = {[6] = 0.5}};
-const LightScene light_near = {.name = "near", .count = 1, LIT, .solids = {CYLINDER(WHITE, 0, 0, 2.5, 0)}};
-const LightScene light_far = {.name = "far", .count = 1, LIT, .solids = {CYLINDER(WHITE, 0, 0, -2.5, 0)}};
+const LightScene light_aliasing = {.name = "aliasing", .count = 1, LIT, .solids = {CYLINDER(WHITE, 0, 0, 2.5, 0)}};
+const LightScene light_placements = {.name = "placements", .count = 3, LIT, .solids = {
+    SPHERE(RED, -1.4, 0, 2), SPHERE(GREEN, 0, 0, 3.5), SPHERE(YELLOW, 2.4, 0, 4.2)}};
 const LightScene light_around = {.name = "around", .count = 6, LIT, .solids = {
     SPHERE(RED, 0, 0, -5.61), CYLINDER(PURPLE, 7.86, 0, 0, 0), CYLINDER(BLUE, -3.21, -1.23, 5.43, 90),
     CYLINDER(WHITE, 2.61, 2.28, 6.18, 0), CUBE(GREEN, -3.6, 2.13, -2.04), CUBE(YELLOW, 4.41, -3.15, 2.79)}};
-const LightScene light_behind = {.name = "behind", .count = 1, LIT, .solids = {SPHERE(WHITE, 0, 0, 2)}};
-const LightScene light_across = {.name = "across", .count = 1, LIT, .solids = {SPHERE(WHITE, 0, 0, 3.5)}};
-const LightScene light_before = {.name = "before", .count = 1, LIT, .solids = {SPHERE(WHITE, 0, 0, 5)}};
 /* clang-format on */
 
 const LightScene *light_scene_named(const char *name) {
-    static const LightScene *const all[] = {&light_composed, &light_effects, &light_near,   &light_far,
-                                            &light_around,   &light_behind,  &light_across, &light_before};
+    static const LightScene *const all[] = {&light_composed, &light_effects, &light_aliasing, &light_placements,
+                                            &light_around};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (strcmp(all[i]->name, name) == 0) return all[i];
     return NULL;

@@ -29,12 +29,10 @@ typedef struct {
     double mirror[LIGHT_SOLIDS], clear[LIGHT_SOLIDS];
 } LightScene;
 
-/* The composed scene of the paper, and the same with shadows, a mirroring ball and a clear box; one cylinder,
- * on the viewer's side of the model (+z) and on the far one; the composed scene's solids spread out, around
- * an observer. */
-extern const LightScene light_composed, light_effects, light_near, light_far, light_around;
-/* One ball behind the sphere of diameter 7, across it, and in front of it. */
-extern const LightScene light_behind, light_across, light_before;
+/* The composed scene of the paper; the same with shadows, a mirroring ball and a clear box; the paper's cylinder
+ * near the model of diameter 7, on the side of +z; three balls, behind that model, across it and in front of
+ * it; and the composed scene's solids spread out around an observer. */
+extern const LightScene light_composed, light_effects, light_aliasing, light_placements, light_around;
 
 /* The scene of that name, or NULL. */
 const LightScene *light_scene_named(const char *name);
