@@ -109,7 +109,7 @@ void table_add(Table *table, const Shots *shots, const View *view, const char *m
 void table_point(Table *table, const Shots *shots, const View *view, const char *curve, const char *x_name,
                  double x, const char *y_name, double y);
 
-enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 64, SCENES_MAX = 6, FACTS_MAX = 12, SAMPLES = 18, SCALE_MAX = 10 };
+enum { TECHNIQUES_MAX = 12, VIEWS_MAX = 64, SCENES_MAX = 8, FACTS_MAX = 12, SAMPLES = 18, SCALE_MAX = 10 };
 
 struct Scene {
     const char *name, *what;

@@ -107,15 +107,20 @@ Around around(Spot spot, vec3 d, vec4 count, vec2 step_theta, vec2 step_phi, flo
                   as * (over * facing), (d.y * cosine - bs * sine) * over, (bs * cosine + d.y * sine) * facing);
 }
 
+// d . e_x, d . e_y, d . e_z in the frame of the spot itself.
+vec3 own_frame(Spot spot, vec3 d, float facing) {
+    float a = d.x * spot.theta.y - d.z * spot.theta.x, b = d.x * spot.theta.x + d.z * spot.theta.y;
+    return vec3(a * facing, d.y * spot.phi.y - b * spot.phi.x, (b * spot.phi.y + d.y * spot.phi.x) * facing);
+}
+
 // The texel that holds the spot, four times, with its own frame: `around` with nothing between texels.
 Around nearest(Spot spot, vec3 d, vec4 count, vec2 step_theta, vec2 step_phi, float facing) {
     vec2 texel = min(floor(spot.uv * vec2(count.xy)), vec2(count.xy) - 1.0);
     vec2 aside = texel + 0.5 - spot.uv * vec2(count.xy);
     vec2 theta = turned(spot.theta, small_turn(aside.x * 2.0 * PI / count.x));
     vec2 phi = step_phi.x != 0.0 ? turned(spot.phi, small_turn(aside.y * PI / count.y)) : spot.phi;
-    float a = d.x * theta.y - d.z * theta.x, b = d.x * theta.x + d.z * theta.y;
-    return Around(ivec4(int(texel.x)), ivec4(int(texel.y)), vec2(0.0), vec4(a * facing),
-                  vec4(d.y * phi.y - b * phi.x), vec4((b * phi.y + d.y * phi.x) * facing));
+    vec3 own = own_frame(Spot(spot.uv, theta, phi), d, facing);
+    return Around(ivec4(int(texel.x)), ivec4(int(texel.y)), vec2(0.0), vec4(own.x), vec4(own.y), vec4(own.z));
 }
 
 // ---- Eq. 5: from d in a frame to s and t ----

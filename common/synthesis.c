@@ -267,6 +267,7 @@ INLINE void meet_box(const Local *local, const Points *way, float start, Meeting
     const Points w = *way;
     const float halves[3] = {local->half.x, local->half.y, local->half.z};
     meeting->t = ALL(-INFINITY);
+    meeting->normal = (Points){{0}, {0}, {0}};
     Floats leave = ALL(INFINITY);
     for (int k = 0; k < 3; k++) {
         Point axis = local->axis[k];
@@ -316,9 +317,12 @@ INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand
             LOAD(cos_alpha, grid->cos_alpha + column);
             Points w = {-cosine * sin_alpha, ALL(-sine), -cosine * cos_alpha};
             Meeting meeting;
-            if (kind == SOLID_SPHERE) meet_sphere(local, &w, start, &meeting);
-            if (kind == SOLID_CYLINDER) meet_cylinder(local, &w, start, &meeting);
-            if (kind == SOLID_BOX) meet_box(local, &w, start, &meeting);
+            if (kind == SOLID_SPHERE)
+                meet_sphere(local, &w, start, &meeting);
+            else if (kind == SOLID_CYLINDER)
+                meet_cylinder(local, &w, start, &meeting);
+            else
+                meet_box(local, &w, start, &meeting);
             size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
             LOAD(depth, plane->depth + at);
             Ints nearer = meeting.met & (meeting.t < depth);

@@ -1,63 +1,151 @@
 #include "globe.h"
-#include "context.h"
+
 #include "fail.h"
-#include "field_draw.h"
-#include "synthesis.h"
+#include "fields.h"
+#include "judge.h"
+#include "solids.h"
+
 #include <stdlib.h>
-#include <stdio.h>
-#include "clock.h"
+
+enum { SAMPLES_USUAL = 7, MADE = 8 };
 
 typedef struct {
-    Field field;
-    const LightScene *scene;
-    FieldTexture texture;
-    Texture plain;
+    Recipe usual;
+    Made made[MADE]; /* in the order in which they were asked for */
+    int count;
+    Texture solids;
+    SolidKinds kinds;
 } Globe;
 
-void *globe_load(const Options *options) {
-    (void)options;
+/* ---- Loading ---- */
+
+static const Field sphere = {.model = FIELD_SPHERE, .radius = 3.5, .u = 128, .v = 64, .s = 64, .t = 64};
+static const Field cylinder = {
+    .model = FIELD_CYLINDER, .radius = 3.5, .height = 6, .u = 128, .v = 48, .s = 64, .t = 64};
+static const Field room = {.model = FIELD_ROOM, .radius = 3.5, .u = 128, .v = 64, .s = 64, .t = 64};
+
+static void *load(const Field *field, const LightScene *scene, bool through) {
     Globe *globe = allocate(1, sizeof *globe);
-    globe->field = (Field){.model = FIELD_SPHERE, .radius = 3.5, .u = 512, .v = 256, .s = 32, .t = 32};
-    globe->scene = &light_composed;
-    globe->texture = field_texture_create(&globe->field);
-    double a = clock_seconds();
-    Synthesis *synthesis = synthesis_create(&globe->field, globe->scene, 7, false);
-    enum { ROWS = 8 };
-    uint8_t *rows = allocate(ROWS, field_row(&globe->field));
-    Image plain = image_create(globe->field.u, globe->field.v, 3);
-    const Field *f = &globe->field;
-    for (int v = 0; v < f->v; v += ROWS) {
-        synthesis_rows(synthesis, v, ROWS, rows, NULL);
-        field_texture_write(&globe->texture, v, ROWS, rows);
-        for (int i = 0; i < ROWS * f->u; i++)
-            for (int c = 0; c < 3; c++)
-                image_at(&plain, i % f->u, v + i / f->u)[c] = (float)srgb_decode(
-                    rows[field_block(f) * (size_t)i + 3 * (size_t)(f->t / 2 * f->s + f->s / 2) + (size_t)c] / 255.0);
-    }
-    fprintf(stderr, "synth+upload %.2f s\n", clock_seconds() - a);
-    globe->plain = texture_create(&plain, 1, TEXTURE_SRGB8, TEXTURE_LINEAR);
-    texture_mipmap(&globe->plain);
-    free(rows);
-    synthesis_destroy(synthesis);
-    image_destroy(&plain);
+    globe->usual = (Recipe){scene, *field, SAMPLES_USUAL, through};
+    globe->solids = solids_texture(scene, &globe->kinds);
     return globe;
+}
+
+void *globe_load_composed(const Options *options) {
+    (void)options;
+    return load(&sphere, &light_composed, false);
+}
+
+void *globe_load_effects(const Options *options) {
+    (void)options;
+    return load(&sphere, &light_effects, false);
+}
+
+void *globe_load_aliasing(const Options *options) {
+    (void)options;
+    Field fine = sphere;
+    fine.u = 512, fine.v = 256, fine.s = 32, fine.t = 32;
+    return load(&fine, &light_aliasing, false);
+}
+
+void *globe_load_placements(const Options *options) {
+    (void)options;
+    return load(&sphere, &light_placements, true);
+}
+
+void *globe_load_cylinder(const Options *options) {
+    (void)options;
+    return load(&cylinder, &light_composed, false);
+}
+
+void *globe_load_panorama(const Options *options) {
+    (void)options;
+    return load(&room, &light_around, false);
 }
 
 void globe_unload(void *data) {
     Globe *globe = data;
-    field_texture_destroy(&globe->texture);
+    for (int i = 0; i < globe->count; i++) field_unmake(&globe->made[i]);
+    texture_destroy(&globe->solids);
     free(globe);
+}
+
+/* ---- The light field that a technique reads ---- */
+
+static Recipe recipe_of(const Globe *globe, Reads reads, double knob) {
+    Recipe recipe = globe->usual;
+    if (knob > 0.0) recipe.samples = (int)knob;
+    Field *field = &recipe.field;
+    if (reads == READS_SINE) field->angles = ANGLES_SINE;
+    if (reads == READS_STEREOGRAPHIC) field->angles = ANGLES_STEREOGRAPHIC;
+    if (reads == READS_PLAIN_LIGHT) recipe.scene = &light_composed;
+    if (reads == READS_64_32_256_256) field->u = 64, field->v = 32, field->s = 256, field->t = 256;
+    if (reads == READS_512_256_32_32) field->u = 512, field->v = 256, field->s = 32, field->t = 32;
+    if (reads == READS_512_256_64_64) field->u = 512, field->v = 256, field->s = 64, field->t = 64;
+    return recipe;
+}
+
+static bool same(const Recipe *a, const Recipe *b) {
+    const Field *f = &a->field, *g = &b->field;
+    return a->scene == b->scene && a->samples == b->samples && f->angles == g->angles && f->u == g->u &&
+           f->v == g->v && f->s == g->s && f->t == g->t;
+}
+
+static const Made *made_for(Globe *globe, const Frame *frame) {
+    if (frame->knob > 0.0 && frame->knob != floor(frame->knob))
+        fail("%g rays a texel: expected a whole number", frame->knob);
+    Recipe recipe = recipe_of(globe, frame->technique->variant, frame->knob);
+    for (int i = 0; i < globe->count; i++)
+        if (same(&globe->made[i].recipe, &recipe)) return &globe->made[i];
+    if (globe->count == MADE) { /* the oldest goes */
+        field_unmake(&globe->made[0]);
+        for (int i = 1; i < MADE; i++) globe->made[i - 1] = globe->made[i];
+        globe->count--;
+    }
+    globe->made[globe->count] = field_make(&recipe);
+    return &globe->made[globe->count++];
+}
+
+/* ---- Drawing ---- */
+
+/* What a pixel in the middle of the picture covers at unit distance. */
+static double pixel_size(const Frame *frame) {
+    const Camera *camera = &frame->camera;
+    return 2.0 * tan(0.5 * radians(camera->fov_y_degrees)) / frame->height;
 }
 
 void globe_draw(const Frame *frame) {
     Globe *globe = frame->data;
-    field_uniforms(frame, &globe->field);
-    field_texture_bind(frame->program, &globe->texture);
-    program_texture(frame->program, "plain", &globe->plain);
+    Program *program = frame->program;
+    program_number(program, "pixel", pixel_size(frame));
+    program_texture(program, "solids", &globe->solids);
+    program_vector(program, "kinds", globe->kinds.spheres, globe->kinds.cylinders, globe->kinds.boxes, 0);
+    Vec3 light = globe->usual.scene->toward_light;
+    program_vector(program, "light", light.x, light.y, light.z, 0);
+    if (frame->technique->variant == READS_NOTHING) {
+        field_uniforms(frame, &globe->usual.field);
+    } else {
+        const Made *made = made_for(globe, frame);
+        field_uniforms(frame, &made->recipe.field);
+        field_texture_bind(program, &made->texture);
+        program_texture(program, "plain", &made->plain);
+        program_texture(program, "depths", &made->depths);
+        program_number(program, "mean_depth", made->mean_depth);
+    }
     draw_everywhere();
 }
 
+/* ---- The truth ---- */
+
 Sample globe_truth(const void *data, Ray ray) {
     const Globe *globe = data;
-    return field_truth(&globe->field, globe->scene, ray);
+    return field_truth(&globe->usual.field, globe->usual.scene, ray);
+}
+
+/* ---- The lesson's own metrics ---- */
+
+void globe_measure(const Shots *shots, Table *table) {
+    Globe *globe = shots->frame->data;
+    if (shots->frame->technique->variant == READS_NOTHING) return;
+    judge_field(shots, table, made_for(globe, shots->frame));
 }

@@ -1,13 +1,10 @@
-// The paper's.
+// The paper's way: four texels around the point, the eye's angles in the frame of each, four taps between those.
 #include "field.inc"
 #include "pages.inc"
 #include "taps.inc"
 
 void main() {
-    PixelRay ray = pixel_ray();
-    vec4 at = meet_model(ray);
-    if (at.w < 0.0) discard;
-    Spot spot = model_spot(at.xyz);
-    Around near = around_spot(spot, -ray.way);
-    show(sixteen_taps(near, linear_angles(near.x, near.y, near.z)), spot, at.w);
+    Seen seen = see_model();
+    Around near = around_spot(seen.spot, -seen.way);
+    show(sixteen_taps(near, linear_angles(near.x, near.y, near.z)), seen);
 }
