@@ -18,8 +18,8 @@ FieldTexture field_texture_create(const Field *field) {
     texture.across = (field->u + texture.columns - 1) / texture.columns;
     texture.count = texture.across * ((field->v + texture.rows - 1) / texture.rows);
     if (texture.count > FIELD_PAGES)
-        fail("a light field of %dx%dx%dx%d: does not fit in %d textures", field->u, field->v, field->s, field->t,
-             FIELD_PAGES);
+        fail("a light field of %dx%dx%dx%d: does not fit in %d textures", field->u, field->v, field->s,
+             field->t, FIELD_PAGES);
     for (int i = 0; i < texture.count; i++)
         texture.pages[i] = texture_empty(texture.columns * field->s, texture.rows * field->t, TEXTURE_SRGBA8,
                                          TEXTURE_LINEAR);
@@ -36,13 +36,15 @@ void field_texture_write(const FieldTexture *texture, int first, int rows, const
             int from = page_u * texture->columns, v = first + row;
             int columns = field->u - from < texture->columns ? field->u - from : texture->columns;
             for (int u = 0; u < columns; u++) {
-                const uint8_t *block = texels + field_row(field) * (size_t)row + field_block(field) * (size_t)(from + u);
+                const uint8_t *block =
+                    texels + field_row(field) * (size_t)row + field_block(field) * (size_t)(from + u);
                 for (int t = 0; t < field->t; t++)
-                    memcpy(part + (size_t)t * line * (size_t)columns + (size_t)u * line, block + (size_t)t * line, line);
+                    memcpy(part + (size_t)t * line * (size_t)columns + (size_t)u * line,
+                           block + (size_t)t * line, line);
             }
             const Texture *page = &texture->pages[v / texture->rows * texture->across + page_u];
-            texture_write_part(page, TEXTURE_SRGB8, 0, v % texture->rows * field->t, columns * field->s, field->t,
-                               part);
+            texture_write_part(page, TEXTURE_SRGB8, 0, v % texture->rows * field->t, columns * field->s,
+                               field->t, part);
         }
     free(part);
 }
@@ -107,5 +109,9 @@ Sample field_truth(const Field *field, const LightScene *scene, Ray ray) {
     SolidHit hit;
     bool met;
     Vec2 place = field_place(field, ray_at(ray, depth));
-    return (Sample){.colour = light_along(scene, ray, &hit, &met), .u = place.x, .v = place.y, .depth = depth, .hit = true};
+    return (Sample){.colour = light_along(scene, ray, &hit, &met),
+                    .u = place.x,
+                    .v = place.y,
+                    .depth = depth,
+                    .hit = true};
 }

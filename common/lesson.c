@@ -95,6 +95,7 @@ static void list_scene(const Scene *scene, const Options *options) {
            scene->background.z);
     for (int i = 0; i < FACTS_MAX && scene->facts[i].name; i++)
         printf("  fact %s %.17g %s\n", scene->facts[i].name, scene->facts[i].value, scene->facts[i].unit);
+    if (scene->list) scene->list(scene);
     for (int i = 0; i < technique_count(scene); i++) {
         const Technique *technique = &scene->techniques[i];
         printf("  technique %s: %s\n", technique->name, technique->what);

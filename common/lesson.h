@@ -14,6 +14,7 @@ typedef struct Technique Technique;
 
 /* What the user chose for a scene's loading. The paths are never NULL where the scene names an image. */
 typedef struct {
+    const char *scene;           /* its name */
     const char *colour, *height; /* full paths: the user's own, or the scene's in the assets folder */
     const char *other[2];        /* full paths of scene->other */
     double scale;                /* --scale, or NAN */
@@ -119,6 +120,7 @@ struct Scene {
     const char *colour, *height; /* assets by file name; --colour and --height replace them */
     const char *other[2];        /* assets that cannot be replaced */
     Fact facts[FACTS_MAX];
+    void (*list)(const Scene *scene); /* prints more lines for --list, two spaces in front; or NULL */
     int samples;       /* rays a pixel of the truth; 0: SAMPLES */
     bool brief_extras; /* with --brief no rmse, psnr_db and max_abs of extra views: their exact pictures take
                           long */

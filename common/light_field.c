@@ -1,5 +1,7 @@
 #include "light_field.h"
 
+#include <stdio.h>
+
 const char *field_refused(const Field *field) {
     const int sides[] = {field->u, field->v, field->s, field->t};
     for (int i = 0; i < 4; i++) {
@@ -11,12 +13,22 @@ const char *field_refused(const Field *field) {
     return NULL;
 }
 
+void field_list(const Field *field) {
+    static const char *const models[] = {"sphere", "cylinder", "room"}, *const scales[] = {"linear", "sine",
+                                                                                           "stereographic"};
+    printf("  model %s radius %.17g", models[field->model], field->radius);
+    if (field->model == FIELD_CYLINDER) printf(" height %.17g", field->height);
+    printf("\n  light_field %dx%dx%dx%d texels of u, v, s, t, %s angles\n", field->u, field->v, field->s,
+           field->t, scales[field->angles]);
+}
+
 FieldFrame field_frame(const Field *field, double u, double v) {
     double theta = radians(360.0 * u - 180.0), phi = radians(180.0 * v - 90.0);
     bool round = field->model != FIELD_CYLINDER;
     double sine = sin(theta), cosine = cos(theta), up = round ? sin(phi) : 0.0, out = round ? cos(phi) : 1.0;
     Vec3 outward = v3(out * sine, up, out * cosine);
-    FieldFrame frame = {.at = vec3_scale(outward, field->radius), .e_z = outward, .e_x = v3(cosine, 0, -sine)};
+    FieldFrame frame = {
+        .at = vec3_scale(outward, field->radius), .e_z = outward, .e_x = v3(cosine, 0, -sine)};
     if (field->model == FIELD_CYLINDER) frame.at.y = field->height * (v - 0.5);
     if (field->model == FIELD_ROOM) {
         frame.e_z = vec3_scale(frame.e_z, -1.0);
@@ -54,7 +66,8 @@ Vec3 field_direction(const Field *field, const FieldFrame *frame, double s, doub
 Vec2 field_angles(const Field *field, const FieldFrame *frame, Vec3 d) {
     double x = vec3_dot(d, frame->e_x), y = vec3_dot(d, frame->e_y), z = vec3_dot(d, frame->e_z);
     double alpha = atan2(x, z), beta = atan2(y, hypot(x, z));
-    if (field->angles != ANGLES_LINEAR) alpha = clamp(alpha, -0.5 * PI, 0.5 * PI); /* which all scales end at */
+    if (field->angles != ANGLES_LINEAR)
+        alpha = clamp(alpha, -0.5 * PI, 0.5 * PI); /* which all scales end at */
     return v2(angle_stored(field->angles, alpha), angle_stored(field->angles, beta));
 }
 

@@ -37,13 +37,16 @@ typedef struct {
 } Field;
 
 enum {
-    FIELD_LEAST = 8,       /* texels along an axis; u, which half a turn must be whole texels of, is even */
-    FIELD_MOST = 1024,     /* u and v, */
+    FIELD_LEAST = 8,        /* texels along an axis; u, which half a turn must be whole texels of, is even */
+    FIELD_MOST = 1024,      /* u and v, */
     FIELD_MOST_ANGLES = 256 /* s and t */
 };
 
 /* Why a field cannot be of that size, or NULL. */
 const char *field_refused(const Field *field);
+
+/* Prints it for a lesson's --list. */
+void field_list(const Field *field);
 
 /* A point of the model and its local frame (Eq. 4): e_z is the normal, toward the observer's side; e_x = y x
  * e_z / |y x e_z|, and at the poles, where that is 0 / 0, its limit along the meridian; e_y = e_z x e_x. */

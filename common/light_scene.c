@@ -1,5 +1,6 @@
 #include "light_scene.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- The scenes ---- */
@@ -34,11 +35,32 @@ const LightScene light_around = {.name = "around", .count = 6, LIT, .solids = {
 /* clang-format on */
 
 const LightScene *light_scene_named(const char *name) {
-    static const LightScene *const all[] = {&light_composed, &light_effects, &light_aliasing, &light_placements,
-                                            &light_around};
+    static const LightScene *const all[] = {&light_composed, &light_effects, &light_aliasing,
+                                            &light_placements, &light_around};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (strcmp(all[i]->name, name) == 0) return all[i];
     return NULL;
+}
+
+static void list_vector(const char *name, Vec3 v) { printf(" %s %.17g %.17g %.17g", name, v.x, v.y, v.z); }
+
+void light_scene_list(const LightScene *scene) {
+    static const char *const kinds[] = {"sphere", "cylinder", "box"};
+    printf("  light toward %.17g %.17g %.17g ambient %g diffuse %g specular %g exponent %d: Phong, linear\n",
+           scene->toward_light.x, scene->toward_light.y, scene->toward_light.z, LIGHT_AMBIENT, LIGHT_DIFFUSE,
+           LIGHT_SPECULAR, LIGHT_EXPONENT);
+    for (int i = 0; i < scene->count; i++) {
+        const Solid *solid = &scene->solids[i];
+        printf("  solid %s", kinds[solid->kind]);
+        list_vector("size", solid->size);
+        list_vector("centre", solid->centre);
+        list_vector("turn_degrees", solid->turn_degrees);
+        list_vector("colour", solid->colour);
+        if (scene->effects) printf(" mirror %g clear %g", scene->mirror[i], scene->clear[i]);
+        putchar('\n');
+    }
+    if (scene->effects)
+        printf("  effects shadows, one mirroring, straight transparency: common/light_scene.h\n");
 }
 
 /* ---- The truth ---- */

@@ -29,13 +29,16 @@ typedef struct {
     double mirror[LIGHT_SOLIDS], clear[LIGHT_SOLIDS];
 } LightScene;
 
-/* The composed scene of the paper; the same with shadows, a mirroring ball and a clear box; the paper's cylinder
- * near the model of diameter 7, on the side of +z; three balls, behind that model, across it and in front of
- * it; and the composed scene's solids spread out around an observer. */
+/* The composed scene of the paper; the same with shadows, a mirroring ball and a clear box; the paper's
+ * cylinder near the model of diameter 7, on the side of +z; three balls, behind that model, across it and in
+ * front of it; and the composed scene's solids spread out around an observer. */
 extern const LightScene light_composed, light_effects, light_aliasing, light_placements, light_around;
 
 /* The scene of that name, or NULL. */
 const LightScene *light_scene_named(const char *name);
+
+/* Prints it for a lesson's --list: all that it takes to build the same scene. */
+void light_scene_list(const LightScene *scene);
 
 /* The light that comes back along a ray, and whether (and where) it meets anything. */
 Vec3 light_along(const LightScene *scene, Ray ray, SolidHit *hit, bool *met);

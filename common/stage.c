@@ -84,7 +84,7 @@ static const char *asset(const char *chosen, const char *name) {
 }
 
 Stage stage_open(const Lesson *lesson, const Scene *scene, const Options *options) {
-    Stage stage = {.lesson = lesson, .scene = scene, .options = {.scale = options->scale}};
+    Stage stage = {.lesson = lesson, .scene = scene, .options = {.scene = scene->name, .scale = options->scale}};
     stage.options.colour = asset(options->colour, scene->colour);
     stage.options.height = asset(options->height, scene->height);
     for (int i = 0; i < 2; i++) stage.options.other[i] = asset(NULL, scene->other[i]);

@@ -5,6 +5,7 @@
 #include "lanes.h"
 #include "parallel.h"
 
+#include <limits.h>
 #include <stdlib.h>
 
 enum { BYTES_TABLE = 65536, BLOCKS_AT_ONCE = 16 };
@@ -27,13 +28,47 @@ struct Synthesis {
 
 /* ---- Samples ---- */
 
-static double fraction(double x) { return x - floor(x); }
+static long common_divisor(long a, long b) { return b ? common_divisor(b, a % b) : a; }
 
-CellPlace synthesis_place(int i) {
-    const double p = 1.1673039782614187; /* of p^5 = p + 1 */
-    double a = 1.0 / p;
-    return (CellPlace){fraction(0.5 + i * a), fraction(0.5 + i * a * a), fraction(0.5 + i * a * a * a),
-                       fraction(0.5 + i * a * a * a * a)};
+/* The powers of a modulo the samples, made odd: then the set is symmetric (see synthesis.h). */
+static void generator(int samples, long a, long g[4]) {
+    g[0] = 1;
+    for (int k = 1; k < 4; k++) g[k] = g[k - 1] % samples * a % samples;
+    for (int k = 0; k < 4; k++)
+        if (g[k] % 2 == 0) g[k] += samples;
+}
+
+/* The square of the least distance of two samples, the cell repeated without end; in units of 1 / samples. */
+static long least_distance(int samples, const long g[4]) {
+    long least = LONG_MAX;
+    for (long i = 1; i <= samples / 2; i++) {
+        long sum = 0;
+        for (int k = 0; k < 4; k++) {
+            long x = i * g[k] % samples;
+            if (x > samples / 2) x = samples - x;
+            sum += x * x;
+        }
+        if (sum < least) least = sum;
+    }
+    return least;
+}
+
+void synthesis_places(int samples, CellPlace *places) {
+    long best[4] = {1, 1, 1, 1}, farthest = -1;
+    for (long a = 1; a < samples; a++) {
+        long g[4];
+        if (common_divisor(samples, a) != 1) continue;
+        generator(samples, a, g);
+        long distance = least_distance(samples, g);
+        if (distance <= farthest) continue;
+        farthest = distance;
+        for (int k = 0; k < 4; k++) best[k] = g[k];
+    }
+    for (long i = 0; i < samples; i++) {
+        double x[4];
+        for (int k = 0; k < 4; k++) x[k] = (double)((2 * i + 1) * best[k] % (2 * samples)) / (2.0 * samples);
+        places[i] = (CellPlace){x[0], x[1], x[2], x[3]};
+    }
 }
 
 static Grid grid_create(const Field *field, int stride, CellPlace place) {
@@ -55,14 +90,19 @@ static Grid grid_create(const Field *field, int stride, CellPlace place) {
 }
 
 Synthesis *synthesis_create(const Field *field, const LightScene *scene, int samples, bool through) {
-    if (field_refused(field)) fail("a light field of %dx%dx%dx%d: %s", field->u, field->v, field->s, field->t,
-                                   field_refused(field));
+    if (field_refused(field))
+        fail("a light field of %dx%dx%dx%d: %s", field->u, field->v, field->s, field->t,
+             field_refused(field));
+    if (samples < 1 || samples > SAMPLES_MOST)
+        fail("%d rays a texel: there may be 1 to %d", samples, SAMPLES_MOST);
     Synthesis *synthesis = allocate(1, sizeof *synthesis);
     synthesis->field = field, synthesis->scene = scene, synthesis->through = through;
     synthesis->samples = samples, synthesis->stride = (field->s + LANES - 1) / LANES * LANES;
     synthesis->grids = allocate((size_t)samples, sizeof(Grid));
-    for (int k = 0; k < samples; k++)
-        synthesis->grids[k] = grid_create(field, synthesis->stride, synthesis_place(k));
+    CellPlace *places = allocate((size_t)samples, sizeof *places);
+    synthesis_places(samples, places);
+    for (int k = 0; k < samples; k++) synthesis->grids[k] = grid_create(field, synthesis->stride, places[k]);
+    free(places);
     for (int i = 0; i < BYTES_TABLE; i++) synthesis->bytes[i] = srgb_byte((float)(i / (BYTES_TABLE - 1.0)));
     return synthesis;
 }
@@ -81,9 +121,9 @@ typedef struct {
 
 typedef struct {
     SolidKind kind;
-    Point centre, axis[3], half, colour; /* axis: the solid's own, as they lie in the frame */
-    Point around[3];                     /* centre x axis */
-    float along[3];                      /* centre . axis */
+    Point centre, axis[3], half, colour;                /* axis: the solid's own, as they lie in the frame */
+    Point around[3];                                    /* centre x axis */
+    float along[3];                                     /* centre . axis */
     int first_row, last_row, first_column, last_column; /* of the rays that may meet it */
 } Local;
 
@@ -136,7 +176,8 @@ static float stored(FieldAngles angles, float a) {
 }
 
 /* The texels whose samples may lie between two angles; one more on each side, for rounding. */
-static void span_of(FieldAngles angles, float low, float high, int count, float place, int *first, int *last) {
+static void span_of(FieldAngles angles, float low, float high, int count, float place, int *first,
+                    int *last) {
     *first = (int)ceilf(stored(angles, low) * (float)count - place) - 1;
     *last = (int)floorf(stored(angles, high) * (float)count - place) + 1;
     if (*first < 0) *first = 0;
@@ -164,7 +205,8 @@ static void bound(const Synthesis *synthesis, const Grid *grid, float reach, Loc
             &local->last_row);
     span_of(field->angles, low_alpha, high_alpha, field->s, (float)grid->place.s, &local->first_column,
             &local->last_column);
-    if (low_alpha > right || high_alpha < -right) local->last_row = local->first_row - 1; /* behind the point */
+    if (low_alpha > right || high_alpha < -right)
+        local->last_row = local->first_row - 1; /* behind the point */
 }
 
 static float reach_of(const Solid *solid) {
@@ -183,8 +225,8 @@ static Stand stand_at(const Synthesis *synthesis, const Grid *grid, const FieldF
         Local *local = &stand.solids[i];
         local->kind = solid->kind;
         local->centre = point_in(frame, vec3_sub(solid->centre, frame->at));
-        local->half = (Point){(float)(0.5 * solid->size.x), (float)(0.5 * solid->size.y),
-                              (float)(0.5 * solid->size.z)};
+        local->half =
+            (Point){(float)(0.5 * solid->size.x), (float)(0.5 * solid->size.y), (float)(0.5 * solid->size.z)};
         local->colour = (Point){(float)solid->colour.x, (float)solid->colour.y, (float)solid->colour.z};
         bound(synthesis, grid, reach_of(solid), local);
         if (local->first_row > local->last_row || local->first_column > local->last_column) continue;
@@ -222,7 +264,7 @@ typedef struct {
         b_;                                                                                                  \
     })
 /* `of` with the sign of `by`. */
-#define SIGNED(of, by) ((Floats)((Ints)ALL(of) | ((Ints)(by) & INT32_MIN)))
+#define SIGNED(of, by) ((Floats)((Ints)ALL(of) | ((Ints)(by)&INT32_MIN)))
 
 INLINE void meet_sphere(const Local *local, const Points *way, float start, Meeting *meeting) {
     const Points w = *way;
@@ -234,8 +276,8 @@ INLINE void meet_sphere(const Local *local, const Points *way, float start, Meet
     meeting->t = passing - deep;
     meeting->met = (inside >= 0.0f) & (meeting->t >= start);
     float scale = 1.0f / radius;
-    meeting->normal = (Points){(off.x - deep * w.x) * scale, (off.y - deep * w.y) * scale,
-                              (off.z - deep * w.z) * scale};
+    meeting->normal =
+        (Points){(off.x - deep * w.x) * scale, (off.y - deep * w.y) * scale, (off.z - deep * w.z) * scale};
 }
 
 /* Within the round: |t w - c|, without its part along the axis, is the radius. The discriminant is
@@ -259,8 +301,8 @@ INLINE void meet_cylinder(const Local *local, const Points *way, float start, Me
                  meeting->t * w.z - local->centre.z};
     Floats at_along = DOT(at, axis);
     meeting->normal = (Points){PICK(flat, up * axis.x, (at.x - at_along * axis.x) * scale),
-                              PICK(flat, up * axis.y, (at.y - at_along * axis.y) * scale),
-                              PICK(flat, up * axis.z, (at.z - at_along * axis.z) * scale)};
+                               PICK(flat, up * axis.y, (at.y - at_along * axis.y) * scale),
+                               PICK(flat, up * axis.z, (at.z - at_along * axis.z) * scale)};
 }
 
 INLINE void meet_box(const Local *local, const Points *way, float start, Meeting *meeting) {
@@ -276,9 +318,9 @@ INLINE void meet_box(const Local *local, const Points *way, float start, Meeting
         Ints later = near > meeting->t;
         meeting->t = PICK(later, near, meeting->t);
         leave = LEAST(leave, far);
-        meeting->normal = (Points){PICK(later, up * axis.x, meeting->normal.x),
-                                  PICK(later, up * axis.y, meeting->normal.y),
-                                  PICK(later, up * axis.z, meeting->normal.z)};
+        meeting->normal =
+            (Points){PICK(later, up * axis.x, meeting->normal.x), PICK(later, up * axis.y, meeting->normal.y),
+                     PICK(later, up * axis.z, meeting->normal.z)};
     }
     meeting->met = (meeting->t <= leave) & (meeting->t >= start);
 }
@@ -311,7 +353,8 @@ INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand
     float start = synthesis->through ? -INFINITY : 0.0f;
     for (int row = local->first_row; row <= local->last_row; row++) {
         float sine = grid->sin_beta[row], cosine = grid->cos_beta[row];
-        for (int column = local->first_column / LANES * LANES; column <= local->last_column; column += LANES) {
+        for (int column = local->first_column / LANES * LANES; column <= local->last_column;
+             column += LANES) {
             Floats sin_alpha, cos_alpha, depth;
             LOAD(sin_alpha, grid->sin_alpha + column);
             LOAD(cos_alpha, grid->cos_alpha + column);
@@ -402,7 +445,8 @@ static bool meet_one(const Local *local, Point origin, Point way, float *t, Poin
     } else {
         for (int k = 0; k < 3; k++) {
             float w_along = dot(way, local->axis[k]);
-            if (!between(dot(from, local->axis[k]), w_along, halves[k], &enter, &leave, &entered)) return false;
+            if (!between(dot(from, local->axis[k]), w_along, halves[k], &enter, &leave, &entered))
+                return false;
             if (entered) side = k;
         }
         *normal = scaled(local->axis[side], -copysignf(1.0f, dot(way, local->axis[side])));
@@ -521,7 +565,8 @@ typedef struct {
 } Rows;
 
 static void clear_rows(const Synthesis *synthesis, Work *work, int first, int last) {
-    size_t begin = (size_t)first * (size_t)synthesis->stride, count = (size_t)(last - first + 1) * (size_t)synthesis->stride;
+    size_t begin = (size_t)first * (size_t)synthesis->stride,
+           count = (size_t)(last - first + 1) * (size_t)synthesis->stride;
     for (int k = 0; k < 3; k++) memset(work->sums.light[k] + begin, 0, count * sizeof(float));
     memset(work->sums.depth + begin, 0, count * sizeof(float));
     memset(work->hits + begin, 0, count * sizeof(int32_t));
@@ -561,7 +606,8 @@ static uint8_t byte_of(const Synthesis *synthesis, float light) {
     return synthesis->bytes[(int)(fminf(light, 1.0f) * (BYTES_TABLE - 1) + 0.5f)];
 }
 
-static void write_block(const Synthesis *synthesis, const Work *work, Rows rows, uint8_t *texels, float *depths) {
+static void write_block(const Synthesis *synthesis, const Work *work, Rows rows, uint8_t *texels,
+                        float *depths) {
     const Field *field = synthesis->field;
     float share = 1.0f / (float)synthesis->samples;
     memset(texels, 0, field_block(field));

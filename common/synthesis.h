@@ -12,19 +12,23 @@
 
 typedef struct Synthesis Synthesis;
 
-/* samples: rays a texel, from 1 (its centre) on, the first of a sequence whose every beginning is spread
- * evenly. through: rays begin outside of everything, so that what lies in front of the model is recorded on
- * it too, as an eye far away sees it; else they begin on the model. The field must not be refused; field and
- * scene are kept by their addresses. synthesis_destroy frees it. */
+/* samples: rays a texel, 1 (its centre) to SAMPLES_MOST. through: rays begin outside of everything, so that
+ * what lies in front of the model is recorded on it too, as an eye far away sees it; else they begin on the
+ * model. The field must not be refused; field and scene are kept by their addresses. synthesis_destroy frees
+ * it. */
+enum { SAMPLES_MOST = 4096 };
 Synthesis *synthesis_create(const Field *field, const LightScene *scene, int samples, bool through);
 void synthesis_destroy(Synthesis *synthesis);
 
-/* The place of sample i in the cell of a texel, each of u, v, s, t in 0..1: the Kronecker sequence of the
- * powers of 1/p, p^5 = p + 1 (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018). */
+/* The places of the samples in the cell of a texel, each of u, v, s, t in 0..1: a lattice of rank one
+ * (N. M. Korobov 1959), sample i at the fraction parts of (2 i + 1) g / (2 samples), for g = 1, a, a^2, a^3.
+ * So each axis alone has its samples evenly spaced, and all of them are symmetric about the centre: a picture
+ * of few samples is not moved aside. Of all a that is taken which keeps the samples farthest from each other.
+ * Writes `samples` places. */
 typedef struct {
     double u, v, s, t;
 } CellPlace;
-CellPlace synthesis_place(int i);
+void synthesis_places(int samples, CellPlace *places);
 
 /* Makes the blocks of rows first to first + rows - 1 of v, on all cores: rows * field_row bytes into texels,
  * and, where depths is not NULL, for every texel (u fastest block, then t, then s, as texels) the mean

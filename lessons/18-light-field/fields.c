@@ -30,7 +30,8 @@ typedef struct {
 } Depths;
 
 static Depths depths_create(const Field *field) {
-    Depths depths = {field->u, field->v, (field->s + COARSE - 1) / COARSE, (field->t + COARSE - 1) / COARSE, NULL, NULL};
+    Depths depths = {field->u, field->v, (field->s + COARSE - 1) / COARSE, (field->t + COARSE - 1) / COARSE,
+                     NULL,     NULL};
     size_t cells = (size_t)(depths.columns * depths.across) * (size_t)(depths.rows * depths.up);
     depths.sum = allocate(2 * cells, sizeof(float));
     depths.count = depths.sum + cells;
@@ -95,8 +96,7 @@ static void say_progress(const Recipe *recipe, int done, double start, double *s
     *said = now;
     const Field *field = &recipe->field;
     fprintf(stderr, "light field %s %dx%dx%dx%d: %d of %d rows, about %.0f s left\n", recipe->scene->name,
-            field->u, field->v, field->s, field->t, done, field->v,
-            (now - start) / done * (field->v - done));
+            field->u, field->v, field->s, field->t, done, field->v, (now - start) / done * (field->v - done));
 }
 
 Made field_make(const Recipe *recipe) {

@@ -17,8 +17,8 @@ typedef struct {
 typedef struct {
     Recipe recipe;
     FieldTexture texture;
-    Texture plain;     /* one picture of the model, u by v, with a mipmap: the light along the normals */
-    Texture depths;    /* a quarter of the texels along each axis: how far behind the model what is seen lies, */
+    Texture plain;  /* one picture of the model, u by v, with a mipmap: the light along the normals */
+    Texture depths; /* a quarter of the texels along each axis: how far behind the model what is seen lies, */
     double mean_depth; /* and the mean of that over all texels that see anything */
     double seconds;    /* that its synthesis took */
     uint8_t *texels;   /* all of them again where they are at most FIELD_KEPT bytes, else NULL */

@@ -5,9 +5,44 @@
 #include "judge.h"
 #include "solids.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* ---- The scenes, by their names ---- */
 
 enum { SAMPLES_USUAL = 7, MADE = 8 };
+
+#define SIZE(nu, nv, ns, nt) .radius = 3.5, .u = nu, .v = nv, .s = ns, .t = nt
+
+static const struct {
+    const char *name;
+    Recipe recipe;
+} scenes[] = {
+    {"composed", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
+    {"effects", {&light_effects, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
+    {"aliasing", {&light_aliasing, {FIELD_SPHERE, SIZE(512, 256, 32, 32)}, SAMPLES_USUAL, false}},
+    {"figure-7", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
+    {"placements", {&light_placements, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, true}},
+    {"cylinder",
+     {&light_composed, {FIELD_CYLINDER, .height = 6, SIZE(128, 48, 64, 64)}, SAMPLES_USUAL, false}},
+    {"panorama", {&light_around, {FIELD_ROOM, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
+};
+
+static const Recipe *recipe_named(const char *name) {
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        if (strcmp(scenes[i].name, name) == 0) return &scenes[i].recipe;
+    fail("%s: no light field is made for this scene", name);
+}
+
+void globe_list(const Scene *scene) {
+    const Recipe *recipe = recipe_named(scene->name);
+    field_list(&recipe->field);
+    printf("  rays %d a texel%s\n", recipe->samples, recipe->through ? ", from outside of everything" : "");
+    light_scene_list(recipe->scene);
+}
+
+/* ---- Loading ---- */
 
 typedef struct {
     Recipe usual;
@@ -17,50 +52,11 @@ typedef struct {
     SolidKinds kinds;
 } Globe;
 
-/* ---- Loading ---- */
-
-static const Field sphere = {.model = FIELD_SPHERE, .radius = 3.5, .u = 128, .v = 64, .s = 64, .t = 64};
-static const Field cylinder = {
-    .model = FIELD_CYLINDER, .radius = 3.5, .height = 6, .u = 128, .v = 48, .s = 64, .t = 64};
-static const Field room = {.model = FIELD_ROOM, .radius = 3.5, .u = 128, .v = 64, .s = 64, .t = 64};
-
-static void *load(const Field *field, const LightScene *scene, bool through) {
+void *globe_load(const Options *options) {
     Globe *globe = allocate(1, sizeof *globe);
-    globe->usual = (Recipe){scene, *field, SAMPLES_USUAL, through};
-    globe->solids = solids_texture(scene, &globe->kinds);
+    globe->usual = *recipe_named(options->scene);
+    globe->solids = solids_texture(globe->usual.scene, &globe->kinds);
     return globe;
-}
-
-void *globe_load_composed(const Options *options) {
-    (void)options;
-    return load(&sphere, &light_composed, false);
-}
-
-void *globe_load_effects(const Options *options) {
-    (void)options;
-    return load(&sphere, &light_effects, false);
-}
-
-void *globe_load_aliasing(const Options *options) {
-    (void)options;
-    Field fine = sphere;
-    fine.u = 512, fine.v = 256, fine.s = 32, fine.t = 32;
-    return load(&fine, &light_aliasing, false);
-}
-
-void *globe_load_placements(const Options *options) {
-    (void)options;
-    return load(&sphere, &light_placements, true);
-}
-
-void *globe_load_cylinder(const Options *options) {
-    (void)options;
-    return load(&cylinder, &light_composed, false);
-}
-
-void *globe_load_panorama(const Options *options) {
-    (void)options;
-    return load(&room, &light_around, false);
 }
 
 void globe_unload(void *data) {

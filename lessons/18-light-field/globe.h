@@ -19,12 +19,8 @@ typedef enum {
 } Reads;
 
 /* Scene callbacks, see lesson.h. */
-void *globe_load_composed(const Options *options);
-void *globe_load_effects(const Options *options);
-void *globe_load_aliasing(const Options *options);
-void *globe_load_placements(const Options *options);
-void *globe_load_cylinder(const Options *options);
-void *globe_load_panorama(const Options *options);
+void globe_list(const Scene *scene);
+void *globe_load(const Options *options);
 void globe_unload(void *data);
 void globe_draw(const Frame *frame);
 Sample globe_truth(const void *data, Ray ray);

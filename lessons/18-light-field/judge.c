@@ -6,7 +6,8 @@
 
 static Vec3 texel_light(const Made *made, int u, int v, int s, int t) {
     const Field *field = &made->recipe.field;
-    size_t block = (size_t)v * (size_t)field->u + (size_t)u, within = (size_t)t * (size_t)field->s + (size_t)s;
+    size_t block = (size_t)v * (size_t)field->u + (size_t)u,
+           within = (size_t)t * (size_t)field->s + (size_t)s;
     const uint8_t *texel = made->texels + block * field_block(field) + within * FIELD_TEXEL;
     return v3(srgb_decode(texel[0] / 255.0), srgb_decode(texel[1] / 255.0), srgb_decode(texel[2] / 255.0));
 }
@@ -14,10 +15,12 @@ static Vec3 texel_light(const Made *made, int u, int v, int s, int t) {
 /* Four taps between the centres of the texels of one block. */
 static Vec3 angular_light(const Made *made, int u, int v, Vec2 angles) {
     const Field *field = &made->recipe.field;
-    double s = clamp(angles.x * field->s - 0.5, 0, field->s - 1), t = clamp(angles.y * field->t - 0.5, 0, field->t - 1);
+    double s = clamp(angles.x * field->s - 0.5, 0, field->s - 1),
+           t = clamp(angles.y * field->t - 0.5, 0, field->t - 1);
     int s0 = (int)fmin(floor(s), field->s - 2), t0 = (int)fmin(floor(t), field->t - 2);
     Vec3 low = vec3_mix(texel_light(made, u, v, s0, t0), texel_light(made, u, v, s0 + 1, t0), s - s0);
-    Vec3 high = vec3_mix(texel_light(made, u, v, s0, t0 + 1), texel_light(made, u, v, s0 + 1, t0 + 1), s - s0);
+    Vec3 high =
+        vec3_mix(texel_light(made, u, v, s0, t0 + 1), texel_light(made, u, v, s0 + 1, t0 + 1), s - s0);
     return vec3_mix(low, high, t - t0);
 }
 
@@ -29,7 +32,8 @@ Vec3 judge_taps(const Made *made, Vec3 at, Vec3 toward) {
     for (int i = 0; i < 4; i++) {
         FieldFrame frame = field_frame(field, (cell.u[i] + 0.5) / field->u, (cell.v[i] + 0.5) / field->v);
         Vec2 angles = field_angles(field, &frame, toward);
-        light = vec3_add(light, vec3_scale(angular_light(made, cell.u[i], cell.v[i], angles), cell.weight[i]));
+        light =
+            vec3_add(light, vec3_scale(angular_light(made, cell.u[i], cell.v[i], angles), cell.weight[i]));
     }
     return light;
 }

@@ -1,11 +1,12 @@
 /* Light-field textures: for each point of a simple model, the light that leaves it in each direction.
  *
- * What to look for: there is only a ball, yet in `composed` seven solids stand in it, hide each other, and move
- * against each other as the eye moves. With `trilinear`, one picture on the ball, they are painted on it. With
- * `nearest` they fall into pieces, a piece a texel; `paper` mixes sixteen texels, and every edge is as soft as
- * the angles between texels are wide. `depth-corrected` knows roughly how deep things lie, and is nearly
- * sharp. Then the table: what softness costs in bytes (`figure-7`), what a light field shows that no geometry
- * is needed for (`effects`), and where it must be wrong (`placements`, from between a ball and the model). */
+ * What to look for: there is only a ball, yet in `composed` seven solids stand in it, hide each other, and
+ * move against each other as the eye moves. With `trilinear`, one picture on the ball, they are painted on
+ * it. With `nearest` they fall into pieces, a piece a texel; `paper` mixes sixteen texels, and every edge is
+ * as soft as the angles between texels are wide. `depth-corrected` knows roughly how deep things lie, and is
+ * nearly sharp. Then the table: what softness costs in bytes (`figure-7`), what a light field shows that no
+ * geometry is needed for (`effects`), and where it must be wrong (`placements`, from between a ball and the
+ * model). */
 #include "globe.h"
 
 /* clang-format off */
@@ -41,38 +42,39 @@
 #define BACK {.name = "back", .camera = AT(-2.5, -1, -8.5, 1, 0, 46)}
 #define TOUCHING {.name = "touching", .camera = AT(1.2, 1.5, 3, 1, 0, 70)}
 
-#define GLOBE .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
+#define GLOBE .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
 
 static const Lesson lesson = {
     .name = "18-light-field",
     .title = "light-field textures: the light that leaves a model, by place and by direction",
     .scenes = {
-        {"composed", "seven solids in a sphere", GLOBE, .load = globe_load_composed,
+        {"composed", "seven solids in a sphere", GLOBE,
          .techniques = {TRILINEAR, FRAMES, NEAREST, SHARED, PAPER, PAPER_FAST, SINE, STEREOGRAPHIC, DEPTH_MEAN,
                         DEPTH_CORRECTED, DIRECT},
          .views = {FRONT, ASIDE, POLE, BACK, TOUCHING}, .path = {AT(0, 0, 9, 1, 0, 46), AT(0.6, 0.3, 9, 1, 0, 46)}},
-        {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE, .load = globe_load_effects,
+        {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE,
          .techniques = {{READING("plain-light", "paper", READS_PLAIN_LIGHT, "a light field without them")},
                         PAPER, DEPTH_CORRECTED},
          .views = {FRONT, ASIDE}},
-        {"aliasing", "one cylinder, on the viewer's side of the sphere or on the far one", GLOBE, .load = globe_load_aliasing,
+        {"aliasing", "one cylinder, on the viewer's side of the sphere or on the far one", GLOBE,
          .techniques = {SAMPLED(1, 7, 49)},
-         .views = {{.name = "near", .camera = AT(0, 0, 9, 1, 0, 46)}, {.name = "far", .camera = AT(0, 0, -9, 1, 0, 46)}}},
-        {"figure-7", "the composed scene as light fields of several sizes", GLOBE, .load = globe_load_composed,
+         .views = {{.name = "near", .camera = AT(0, 0, 9, 1, 0, 46)}, {.name = "far", .camera = AT(0, 0, -9, 1, 0, 46)}},
+         .path = {AT(0, 0, -9, 1, 0, 46), AT(0.6, 0.3, -9, 1, 0, 46)}},
+        {"figure-7", "the composed scene as light fields of several sizes", GLOBE,
          .techniques = {DIRECT,
                         {READING("64x32x256x256", "paper", READS_64_32_256_256, "few places, many directions")},
                         {READING("64x32x256x256-corrected", "depth-corrected", READS_64_32_256_256, "the same, corrected by a coarse depth")},
                         {READING("512x256x32x32", "paper", READS_512_256_32_32, "many places, few directions")},
                         {READING("512x256x64x64", "paper-pages", READS_512_256_64_64, "four times as many directions")}},
          .views = {FRONT, ASIDE, POLE}},
-        {"placements", "balls behind the model, across it and in front of it", GLOBE, .load = globe_load_placements,
+        {"placements", "balls behind the model, across it and in front of it", GLOBE,
          .techniques = {TRILINEAR, PAPER, MARKED, DIRECT},
          .views = {{.name = "outside", .camera = AT(1.5, 1, 12, 1, 0, 36)},
                    {.name = "between", .camera = {.eye = {1.835, 0, 3.21}, .target = {-1.4, 0, 0.5}, .up = {0, 1, 0},
                                                   .fov_y_degrees = 80, .near = 0.01, .far = 100}}}},
-        {"cylinder", "the composed scene on the side of a cylinder", GLOBE, .load = globe_load_cylinder,
+        {"cylinder", "the composed scene on the side of a cylinder", GLOBE,
          .techniques = {TRILINEAR, PAPER, PAPER_FAST}, .views = {FRONT, BACK}},
-        {"panorama", "an observer inside, solids outside", GLOBE, .load = globe_load_panorama,
+        {"panorama", "an observer inside, solids outside", GLOBE,
          .techniques = {TRILINEAR, PAPER, PAPER_FAST, DIRECT},
          .views = {{.name = "centre", .camera = {.target = {0, 0, 1}, .up = {0, 1, 0}, .fov_y_degrees = 90, .near = 0.01, .far = 100}},
                    {.name = "aside", .camera = {.eye = {1.5, 0.5, -1}, .target = {-2, 0, 2}, .up = {0, 1, 0}, .fov_y_degrees = 90,
