@@ -47,21 +47,32 @@ sub write_only { # the rows that the bounds are about, and those they refer to: 
     close $out;
 }
 
-sub check {
+sub row_name { key(@{$_[0]}{qw(scene technique knob view metric)}) }
+
+sub problem { # why a row does not keep its bounds, or undef
     my ($row, $values) = @_;
-    my $name  = key(@{$row}{qw(scene technique knob view metric)});
+    my $name  = row_name($row);
     my $value = $values->{$name};
-    return fail("$name: the row is missing") unless defined $value;
-    return fail("$name: expect.csv bounds it on no side") unless "$row->{at_least}$row->{at_most}" =~ /\S/;
+    return "$name: the row is missing" unless defined $value;
+    return "$name: expect.csv bounds it on no side" unless "$row->{at_least}$row->{at_most}" =~ /\S/;
     for my $side (['at_least', 1], ['at_most', -1]) {
         my ($column, $sign) = @$side;
         next if $row->{$column} eq '';
         my ($bound, $why) = bound($row->{$column}, $row, $values);
-        return fail("$name: $why") unless defined $bound;
-        return fail("$name: $value, expected $column $row->{$column} = $bound")
+        return "$name: $why" unless defined $bound;
+        return "$name: $value, expected $column $row->{$column} = $bound"
             if $sign * ($value - $bound) < 0;
     }
-    pass("$name = $value");
+    return undef;
+}
+
+sub measure { # the values of the rows that are expected, by name; undef if the program fails
+    my ($lesson, $stem, @rows) = @_;
+    unlink "$stem.csv";
+    write_only("$stem-only.csv", @rows);
+    my $said = `build/$lesson --measure $stem.csv --only $stem-only.csv --size $size 2>&1`;
+    is($?, 0, "$lesson is measured") or diag $said;
+    return map { (row_name($_) => $_->{value}) } rows("$stem.csv");
 }
 
 sub check_golden { # all of a lesson's, drawn into a folder of its own, for lessons are checked side by side
@@ -95,12 +106,20 @@ for my $lesson (@lessons) {
     ok(@expected > 0, "$lesson/expect.csv expects something");
     @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio|scatter_ratio)/) } @expected if $phase;
     if (@expected) {
-        unlink "$stem.csv";
-        write_only("$stem-only.csv", @expected);
-        my $said = `build/$lesson --measure $stem.csv --only $stem-only.csv --size $size 2>&1`;
-        is($?, 0, "$lesson is measured") or diag $said;
-        my %values = map { (key(@{$_}{qw(scene technique knob view metric)}) => $_->{value}) } rows("$stem.csv");
-        check($_, \%values) for @expected;
+        my %values = measure($lesson, $stem, @expected);
+        # What else the machine does may be in a time, once; what is in it three times is the program's.
+        my @left = grep { defined problem($_, \%values) } @expected;
+        for (2 .. ($phase eq '--costs' ? 3 : 1)) {
+            last unless @left;
+            diag problem($_, \%values), ' (measured again)' for @left;
+            %values = (%values, measure($lesson, $stem, @left));
+            @left = grep { defined problem($_, \%values) } @left;
+        }
+        my %failed = map { (row_name($_) => 1) } @left;
+        for my $row (@expected) {
+            my $name = row_name($row);
+            ok(!$failed{$name}, "$name = " . ($values{$name} // 'missing')) or diag problem($row, \%values);
+        }
     }
     next if $phase eq '--costs';
     my @golden = glob("$golden/$lesson.*.png");
