@@ -11,13 +11,15 @@
 #define INLINE static inline __attribute__((always_inline))
 
 /* Eight where the program can choose as it starts between code for AVX2 and code for any x86-64 (WIDE asks
- * for both), else four, which every machine has. */
-#ifdef __x86_64__
+ * for both), else four, which every machine has. Who wants four anyway defines LANES so before. */
+#if defined __x86_64__ && !defined LANES
 #define LANES 8
 #define WIDE __attribute__((target_clones("avx2", "default")))
 #define RAMP ((Ints){0, 1, 2, 3, 4, 5, 6, 7})
 #else
+#ifndef LANES
 #define LANES 4
+#endif
 #define WIDE
 #define RAMP ((Ints){0, 1, 2, 3})
 #endif
@@ -28,8 +30,9 @@ typedef uint32_t Uints __attribute__((vector_size(4 * LANES)));
 typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
 
 /* Comparisons make an Ints of -1 where they hold and 0 where not: `yes` in these. */
-#define PICK(yes, a, b) ((Floats)(((Ints)(a) & (yes)) | ((Ints)(b) & ~(yes))))
-/* By lane, for which compilers know one instruction. */
+#define PICK_INTS(yes, a, b) (((a) & (yes)) | ((b) & ~(yes)))
+#define PICK(yes, a, b) ((Floats)PICK_INTS(yes, (Ints)(a), (Ints)(b)))
+/* By lane, for which compilers know one instruction; b where a is no number. */
 #define LEAST(a, b) BY_LANE(<, a, b)
 #define GREATEST(a, b) BY_LANE(>, a, b)
 #define BY_LANE(before, a, b)                                                                                \
@@ -56,6 +59,12 @@ typedef int64_t LongInts __attribute__((vector_size(4 * LANES)));
 #define ALL_OF(yes) (!ANY(~(yes)))
 
 /* To and from memory, wherever that lies. */
+#define FLOATS_AT(from)                                                                                      \
+    __extension__({                                                                                          \
+        Floats at_;                                                                                          \
+        memcpy(&at_, from, sizeof at_);                                                                      \
+        at_;                                                                                                 \
+    })
 #define LOAD(vector, from) memcpy(&(vector), from, sizeof(vector))
 #define STORE(vector, to) memcpy(to, &(vector), sizeof(vector))
 

@@ -9,8 +9,6 @@ void grid_clear(const Grid *grid) {
     memset(grid->texels + from, 0, count * sizeof *grid->texels);
 }
 
-typedef uint16_t Shorts __attribute__((vector_size(2 * LANES)));
-
 static Ints shorts_load(const uint16_t *from) {
     Shorts lanes;
     memcpy(&lanes, from, sizeof lanes);

@@ -4,6 +4,7 @@
 #define LESSON_GRID_H
 
 #include "box.h"
+#define LANES 4 /* a row of a tile is short */
 #include "lanes.h"
 
 /* A band of rows of a face's samples, whose places are 0.5, 1.5 and so on. Each is NOTHING deep and shows
@@ -35,7 +36,7 @@ void grid_resolve(const Grid *grid, int samples, int row, const Texel *texels, u
 /* The first of the samples low..high - 1 that is not below a place; high where there is none, low where the
  * place is no number. */
 static inline Ints sample_from(Floats place, int low, int high) {
-    Floats from = least(greatest(place - 0.5f, floats((float)low)), floats((float)high));
+    Floats from = LEAST(GREATEST(place - 0.5f, ALL((float)low)), ALL((float)high));
     Ints below = __builtin_convertvector(from, Ints);
     return below - (Ints)(__builtin_convertvector(below, Floats) < from); /* what holds is -1 */
 }
@@ -44,10 +45,10 @@ static inline Ints sample_from(Floats place, int low, int high) {
 
 /* Four samples take a depth and a texel where they are inside and it is nearer than what they have. */
 static inline void take(float *depths, uint32_t *texels, Ints inside, Floats depth, Ints texel) {
-    Floats old_depth = floats_load(depths);
-    Ints nearer = inside & (Ints)(depth < old_depth), old_texel = ints_load(texels);
-    Floats new_depth = floats_choose(nearer, depth, old_depth);
-    Ints new_texel = ints_choose(nearer, texel, old_texel);
+    Floats old_depth = FLOATS_AT(depths);
+    Ints nearer = inside & (Ints)(depth < old_depth), old_texel = (Ints)FLOATS_AT(texels);
+    Floats new_depth = PICK(nearer, depth, old_depth);
+    Ints new_texel = PICK_INTS(nearer, texel, old_texel);
     memcpy(depths, &new_depth, sizeof new_depth);
     memcpy(texels, &new_texel, sizeof new_texel);
 }
@@ -75,10 +76,10 @@ grid_triangle(const Grid *grid, Extent extent, Landed a, Landed b, Landed c, con
             Floats a_weight = 1.0f - b_weight - c_weight;
             Floats depth = a.depth + b_weight * (b.depth - a.depth) + c_weight * (c.depth - a.depth);
             Ints inside = (a_weight > little) & (b_weight > little) & (c_weight > little);
-            Ints b_or_c =
-                ints_choose(b_weight > c_weight, ints((int32_t)texels[1]), ints((int32_t)texels[2]));
-            Ints texel =
-                ints_choose((a_weight > b_weight) & (a_weight > c_weight), ints((int32_t)texels[0]), b_or_c);
+            Ints b_or_c = PICK_INTS(b_weight > c_weight, ((int32_t)texels[1] + (Ints){0}),
+                                    ((int32_t)texels[2] + (Ints){0}));
+            Ints texel = PICK_INTS((a_weight > b_weight) & (a_weight > c_weight),
+                                   ((int32_t)texels[0] + (Ints){0}), b_or_c);
             take(grid->depths + sample, grid->texels + sample, inside, depth, texel);
             b_weight += LANES * b_step;
             c_weight += LANES * c_step;

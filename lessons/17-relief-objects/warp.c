@@ -53,7 +53,7 @@ typedef struct {
  */
 static inline LandedLanes land(const Map *map, float size, Floats u, Floats v, Floats d) {
     Floats w = map->w[0] * u + map->w[1] * v + map->w[2] * d + map->w[3];
-    Floats scale = floats_choose(w > W_LEAST, size / w, floats(NAN));
+    Floats scale = PICK(w > W_LEAST, size / w, ALL(NAN));
     return (LandedLanes){(map->u[0] * u + map->u[1] * v + map->u[2] * d + map->u[3]) * scale,
                          (map->v[0] * u + map->v[1] * v + map->v[2] * d + map->v[3]) * scale,
                          map->depth[0] * u + map->depth[1] * v + map->depth[2] * d + map->depth[3]};
@@ -61,10 +61,10 @@ static inline LandedLanes land(const Map *map, float size, Floats u, Floats v, F
 
 static void land_row(const Map *map, float size, const Face *face, int column, int row, LandedRow *landed) {
     const float *d = face->d + (size_t)row * face->width + column;
-    Floats v = floats(((float)row + 0.5f) / (float)face->height);
+    Floats v = ALL(((float)row + 0.5f) / (float)face->height);
     for (int i = 0; i < ROW; i += LANES) {
         Floats u = ((float)(column + i) + (Floats){0.5f, 1.5f, 2.5f, 3.5f}) / (float)face->width;
-        LandedLanes at = land(map, size, u, v, floats_load(d + i));
+        LandedLanes at = land(map, size, u, v, FLOATS_AT(d + i));
         memcpy(landed->x + i, &at.x, sizeof at.x);
         memcpy(landed->y + i, &at.y, sizeof at.y);
         memcpy(landed->depth + i, &at.depth, sizeof at.depth);
@@ -118,16 +118,16 @@ static inline bool is_empty(Extent extent) { return extent.x0 >= extent.x1 || ex
 static void extend_cells(const Grid *grid, const LandedRow *here, const LandedRow *above,
                          Extent extents[ROW]) {
     for (int i = 0; i < ROW; i += LANES) {
-        Floats x00 = floats_load(here->x + i), x10 = floats_load(here->x + i + 1);
-        Floats y00 = floats_load(here->y + i), y10 = floats_load(here->y + i + 1);
-        Floats x01 = floats_load(above->x + i), x11 = floats_load(above->x + i + 1);
-        Floats y01 = floats_load(above->y + i), y11 = floats_load(above->y + i + 1);
+        Floats x00 = FLOATS_AT(here->x + i), x10 = FLOATS_AT(here->x + i + 1);
+        Floats y00 = FLOATS_AT(here->y + i), y10 = FLOATS_AT(here->y + i + 1);
+        Floats x01 = FLOATS_AT(above->x + i), x11 = FLOATS_AT(above->x + i + 1);
+        Floats y01 = FLOATS_AT(above->y + i), y11 = FLOATS_AT(above->y + i + 1);
         ExtentLanes lanes = extent_between(
-            grid, least(least(x00, x10), least(x01, x11)), greatest(greatest(x00, x10), greatest(x01, x11)),
-            least(least(y00, y10), least(y01, y11)), greatest(greatest(y00, y10), greatest(y01, y11)));
+            grid, LEAST(LEAST(x00, x10), LEAST(x01, x11)), GREATEST(GREATEST(x00, x10), GREATEST(x01, x11)),
+            LEAST(LEAST(y00, y10), LEAST(y01, y11)), GREATEST(GREATEST(y00, y10), GREATEST(y01, y11)));
         Floats x = (x11 - x00) * grid->side, y = (y11 - y00) * grid->side; /* of what both triangles share */
         Ints faces_eye = ((x10 - x00) * y > (y10 - y00) * x) | (x * (y01 - y00) > y * (x01 - x00));
-        lanes.x1 = ints_choose(faces_eye, lanes.x1, lanes.x0);
+        lanes.x1 = PICK_INTS(faces_eye, lanes.x1, lanes.x0);
         for (int k = 0; k < LANES; k++) extents[i + k] = extent_at(&lanes, k);
     }
 }
@@ -172,8 +172,8 @@ static void draw_rims(const Grid *grid, const Map *map, const Face *face, const 
         LandedLanes at[3];
         for (int k = 0; k < 3; k++) at[k] = land_corners(map, (float)grid->width, rims, count, k);
         ExtentLanes lanes = extent_between(
-            grid, least(at[0].x, least(at[1].x, at[2].x)), greatest(at[0].x, greatest(at[1].x, at[2].x)),
-            least(at[0].y, least(at[1].y, at[2].y)), greatest(at[0].y, greatest(at[1].y, at[2].y)));
+            grid, LEAST(at[0].x, LEAST(at[1].x, at[2].x)), GREATEST(at[0].x, GREATEST(at[1].x, at[2].x)),
+            LEAST(at[0].y, LEAST(at[1].y, at[2].y)), GREATEST(at[0].y, GREATEST(at[1].y, at[2].y)));
         for (int i = 0; i < count; i++) {
             if (is_empty(extent_at(&lanes, i))) continue;
             Landed corners[3];
