@@ -68,7 +68,7 @@ static const Lesson lesson = {
                         {READING("512x256x64x64", "paper-pages", READS_512_256_64_64, "four times as many directions")}},
          .views = {FRONT, ASIDE, POLE}},
         {"placements", "balls behind the model, across it and in front of it", GLOBE,
-         .techniques = {TRILINEAR, PAPER, MARKED, DIRECT},
+         .techniques = {TRILINEAR, SHARED, PAPER, MARKED, DIRECT},
          .views = {{.name = "outside", .camera = AT(1.5, 1, 12, 1, 0, 36)},
                    {.name = "between", .camera = {.eye = {1.835, 0, 3.21}, .target = {-1.4, 0, 0.5}, .up = {0, 1, 0},
                                                   .fov_y_degrees = 80, .near = 0.01, .far = 100}}}},
