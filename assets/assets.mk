@@ -11,7 +11,7 @@ ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(OBJECTS) $(addprefix $(B)/assets/,
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief $(B)/object: $(B)/%: assets/%.c | $(LIBRARIES)
+$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief $(B)/object $(B)/light-field: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
 		$(LDFLAGS) $(LINK_RAYS) $(LINK_TEXEL)
@@ -52,10 +52,19 @@ relief: $(B)/relief ## (COLOUR=a.png HEIGHT=b.png OUT=c.png) make a relief textu
 	$(Q)$(B)/relief combine $(if $(SCALE),--scale '$(SCALE)') $(if $(BASE),--base '$(BASE)') \
 		$(if $(WIDTH),--width '$(WIDTH)') $(if $(UNIT),--unit '$(UNIT)') -- '$(COLOUR)' '$(HEIGHT)' '$(OUT)'
 
-.PHONY: relief
+# Hundreds of megabytes, so no part of `make all`. What was stopped goes on, and what is there stays.
+FIELD_OUT = $(or $(OUT),$(B)/fields/$(or $(SCENE),composed)-$(SIZE)-$(or $(SAMPLES),7)$(addprefix -,$(filter-out linear,$(ANGLES)))$(addprefix -,$(MODEL)).field)
+light-field: $(B)/light-field ## (SIZE=512x256x32x32 SCENE=composed) make a light field as a file, in build/fields
+	$(if $(SIZE),,$(error usage: make light-field SIZE=512x256x32x32 \
+		[SCENE=composed SAMPLES=7 ANGLES=linear MODEL=sphere OUT=a.field]))
+	$(Q)mkdir -p $(B)/fields
+	$(Q)$(B)/light-field make '$(FIELD_OUT)' --size '$(SIZE)' $(if $(SCENE),--scene '$(SCENE)') \
+		$(if $(SAMPLES),--samples '$(SAMPLES)') $(if $(ANGLES),--angles '$(ANGLES)') $(if $(MODEL),--model '$(MODEL)')
+
+.PHONY: relief light-field
 
 # A .npz is a zip archive; unzip checks what it unpacks.
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz
 	$(Q)unzip -p $< arr_0.npy >$@.part && mv $@.part $@
 
--include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d $(B)/object.d
+-include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d $(B)/object.d $(B)/light-field.d
