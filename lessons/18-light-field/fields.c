@@ -99,10 +99,19 @@ static void say_progress(const Recipe *recipe, int done, double start, double *s
             field->u, field->v, field->s, field->t, done, field->v, (now - start) / done * (field->v - done));
 }
 
-Made field_make(const Recipe *recipe) {
+/* Rows that are in a file. Their depths are not, so those are made, of one ray a texel. */
+static void read_rows(const FieldFile *file, const char *path, int first, int count, uint8_t *rows) {
+    for (int i = 0; i < count; i++) {
+        int index = field_file_find(file, FIELD_ROWS, (uint32_t)(first + i));
+        field_file_demand(field_file_section(file, index, rows + field_row(&file->header.field) * (size_t)i), path);
+    }
+}
+
+Made field_make(const Recipe *recipe, const FieldFile *file, const char *path) {
     const Field *field = &recipe->field;
     Made made = {.recipe = *recipe, .texture = field_texture_create(field)};
-    Synthesis *synthesis = synthesis_create(field, recipe->scene, recipe->samples, recipe->through);
+    Synthesis *synthesis =
+        synthesis_create(field, recipe->scene, file ? 1 : recipe->samples, recipe->through);
     size_t row = field_row(field), row_texels = row / FIELD_TEXEL;
     uint8_t *rows = allocate(ROWS, row);
     float *row_depths = allocate(ROWS * row_texels, sizeof(float));
@@ -114,6 +123,7 @@ Made field_make(const Recipe *recipe) {
         int count = field->v - v < ROWS ? field->v - v : ROWS;
         double begun = clock_seconds();
         synthesis_rows(synthesis, v, count, rows, row_depths);
+        if (file) read_rows(file, path, v, count, rows);
         made.seconds += clock_seconds() - begun;
         field_texture_write(&made.texture, v, count, rows);
         if (made.texels) memcpy(made.texels + row * (size_t)v, rows, row * (size_t)count);

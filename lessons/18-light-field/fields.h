@@ -4,6 +4,7 @@
 #define LESSON_FIELDS_H
 
 #include "field_draw.h"
+#include "field_file.h"
 
 /* What a light field is made of. */
 typedef struct {
@@ -26,8 +27,9 @@ typedef struct {
 
 enum { FIELD_KEPT = 128 << 20, COARSE = 4 };
 
-/* Synthesises and uploads, row by row; progress is said on standard error if it takes long. */
-Made field_make(const Recipe *recipe);
+/* Synthesises and uploads, row by row; progress is said on standard error if it takes long. file: where the
+ * texels come from instead, or NULL; path is its name. Ends the program if that cannot be read. */
+Made field_make(const Recipe *recipe, const FieldFile *file, const char *path);
 
 void field_unmake(Made *made);
 

@@ -50,11 +50,30 @@ typedef struct {
     int count;
     Texture solids;
     SolidKinds kinds;
+    char *path; /* of the user's light field, which then is the usual one; NULL: there is none */
+    FieldFile file;
 } Globe;
+
+/* A user's light field must be one of what the scene shows, or the truth would be of something else. */
+static void read_file(Globe *globe, const char *path) {
+    field_file_demand(field_file_open(&globe->file, path), path);
+    const FieldHeader *header = &globe->file.header;
+    Recipe *usual = &globe->usual;
+    FieldHeader own = field_header(&header->field, usual->scene, header->samples, usual->through);
+    if (header->codec != FIELD_RAW) fail("%s: is encoded; lesson 19 reads such files", path);
+    if (!field_header_equal(header, &own) || header->field.model != usual->field.model ||
+        header->field.radius != usual->field.radius || header->field.height != usual->field.height)
+        fail("%s: is a light field of %s, not of the scene %s", path, header->scene, usual->scene->name);
+    if (header->field.angles != ANGLES_LINEAR) fail("%s: its angles are not linear", path);
+    globe->path = text("%s", path);
+    usual->field = header->field;
+    usual->samples = header->samples;
+}
 
 void *globe_load(const Options *options) {
     Globe *globe = allocate(1, sizeof *globe);
     globe->usual = *recipe_named(options->scene);
+    if (options->colour) read_file(globe, options->colour);
     globe->solids = solids_texture(globe->usual.scene, &globe->kinds);
     return globe;
 }
@@ -63,6 +82,8 @@ void globe_unload(void *data) {
     Globe *globe = data;
     for (int i = 0; i < globe->count; i++) field_unmake(&globe->made[i]);
     texture_destroy(&globe->solids);
+    if (globe->path) field_file_close(&globe->file);
+    free(globe->path);
     free(globe);
 }
 
@@ -70,6 +91,7 @@ void globe_unload(void *data) {
 
 static Recipe recipe_of(const Globe *globe, Reads reads, double knob) {
     Recipe recipe = globe->usual;
+    if (globe->path && (reads == READS_USUAL || reads == READS_USUAL_PAGED)) return recipe;
     if (knob > 0.0) recipe.samples = (int)knob;
     Field *field = &recipe.field;
     if (reads == READS_SINE) field->angles = ANGLES_SINE;
@@ -98,7 +120,8 @@ static const Made *made_for(Globe *globe, const Frame *frame) {
         for (int i = 1; i < MADE; i++) globe->made[i - 1] = globe->made[i];
         globe->count--;
     }
-    globe->made[globe->count] = field_make(&recipe);
+    bool stored = globe->path && same(&recipe, &globe->usual);
+    globe->made[globe->count] = field_make(&recipe, stored ? &globe->file : NULL, globe->path);
     return &globe->made[globe->count++];
 }
 
@@ -108,6 +131,14 @@ static const Made *made_for(Globe *globe, const Frame *frame) {
 static double pixel_size(const Frame *frame) {
     const Camera *camera = &frame->camera;
     return 2.0 * tan(0.5 * radians(camera->fov_y_degrees)) / frame->height;
+}
+
+/* A shader for one texture would show the first of several as if it were all. */
+static void check_pages(const Made *made, const Technique *technique) {
+    bool paged = technique->variant == READS_USUAL_PAGED || technique->variant == READS_512_256_64_64;
+    if (made->texture.count > 1 && !paged)
+        fail("%s: this light field lies in %d textures, which paper-pages alone reads", technique->name,
+             made->texture.count);
 }
 
 void globe_draw(const Frame *frame) {
@@ -122,6 +153,7 @@ void globe_draw(const Frame *frame) {
         field_uniforms(frame, &globe->usual.field);
     } else {
         const Made *made = made_for(globe, frame);
+        check_pages(made, frame->technique);
         field_uniforms(frame, &made->recipe.field);
         field_texture_bind(program, &made->texture);
         program_texture(program, "plain", &made->plain);

@@ -8,12 +8,13 @@
  * texel. */
 typedef enum {
     READS_USUAL,         /* the scene's own */
+    READS_USUAL_PAGED,   /* the same, by a shader that may find it in several textures */
     READS_SINE,          /* the same with other angular scales */
     READS_STEREOGRAPHIC, /* */
     READS_PLAIN_LIGHT,   /* without shadows, mirror and transparency */
     READS_64_32_256_256, /* the sizes of the paper's Figure 7 */
     READS_512_256_32_32, /* */
-    READS_512_256_64_64, /* */
+    READS_512_256_64_64, /* this one in several textures */
     READS_COUNT,
     READS_NOTHING = -1 /* no light field at all */
 } Reads;

@@ -15,11 +15,12 @@
 
 #define READING(name, shader, reads, what) name, what, "everywhere.vert", shader ".frag", .variant = reads
 
-#define TRILINEAR {READING("trilinear", "trilinear", READS_USUAL, "one picture on the model, through a mipmap")}
+#define TRILINEAR {READING("trilinear", "trilinear", READS_USUAL_PAGED, "one picture on the model, through a mipmap")}
 #define FRAMES {READING("frames", "frames", READS_NOTHING, "the four frames and no texel: where the time goes")}
 #define NEAREST {READING("nearest", "nearest", READS_USUAL, "the nearest texel of all four axes")}
 #define SHARED {READING("shared", "shared", READS_USUAL, "sixteen taps, the point's own angles for all four neighbours")}
 #define PAPER {READING("paper", "paper", READS_USUAL, "sixteen taps, each neighbour with the angles in its own frame")}
+#define PAPER_PAGES {READING("paper-pages", "paper-pages", READS_USUAL_PAGED, "as paper, from up to four textures: for large light fields")}
 #define PAPER_FAST {READING("paper-fast", "paper-fast", READS_USUAL, "the same from four filtered fetches")}
 #define SINE {READING("sine", "sine", READS_SINE, "as paper, s and t being sines of the angles")}
 #define STEREOGRAPHIC \
@@ -42,7 +43,7 @@
 #define BACK {.name = "back", .camera = AT(-2.5, -1, -8.5, 1, 0, 46)}
 #define TOUCHING {.name = "touching", .camera = AT(1.2, 1.5, 3, 1, 0, 70)}
 
-#define GLOBE .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
+#define GLOBE .colour = "", .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
 
 static const Lesson lesson = {
     .name = "18-light-field",
@@ -50,14 +51,14 @@ static const Lesson lesson = {
     .scenes = {
         {"composed", "seven solids in a sphere", GLOBE,
          .techniques = {TRILINEAR, FRAMES, NEAREST, SHARED, PAPER, PAPER_FAST, SINE, STEREOGRAPHIC, DEPTH_MEAN,
-                        DEPTH_CORRECTED, DIRECT},
+                        DEPTH_CORRECTED, DIRECT, PAPER_PAGES},
          .views = {FRONT, ASIDE, POLE, BACK, TOUCHING}, .path = {AT(0, 0, 9, 1, 0, 46), AT(0.6, 0.3, 9, 1, 0, 46)}},
         {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE,
          .techniques = {{READING("plain-light", "paper", READS_PLAIN_LIGHT, "a light field without them")},
                         PAPER, DEPTH_CORRECTED},
          .views = {FRONT, ASIDE}},
         {"aliasing", "one cylinder, on the viewer's side of the sphere or on the far one", GLOBE,
-         .techniques = {SAMPLED(1, 7, 49)},
+         .techniques = {TRILINEAR, SAMPLED(1, 7, 49), PAPER_PAGES},
          .views = {{.name = "near", .camera = AT(0, 0, 9, 1, 0, 46)}, {.name = "far", .camera = AT(0, 0, -9, 1, 0, 46)}},
          .path = {AT(0, 0, -9, 1, 0, 46), AT(0.6, 0.3, -9, 1, 0, 46)}},
         {"figure-7", "the composed scene as light fields of several sizes", GLOBE,
