@@ -11,10 +11,15 @@ ASSETS := $(GENERATED) $(FETCHED) $(STEREO) $(OBJECTS) $(addprefix $(B)/assets/,
 
 # The library is only needed to be there: when it changes, the pictures stay what they are. Without
 # contraction a*b + c is rounded twice on every machine, so every machine draws the same bytes.
-$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief $(B)/object $(B)/light-field: $(B)/%: assets/%.c | $(LIBRARIES)
+$(B)/generate $(B)/stereo $(B)/terrain $(B)/relief $(B)/object: $(B)/%: assets/%.c | $(LIBRARIES)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(TEXEL_CFLAGS) $(CFLAGS) -ffp-contract=off -MMD -MP -MT $@ -MF $@.d -o $@ $< \
 		$(LDFLAGS) $(LINK_RAYS) $(LINK_TEXEL)
+
+# Of the library only what it needs, which is no OpenGL: so it starts at once, and takes little memory.
+$(B)/light-field: $(B)/obj/assets/light_field.c.o $(B)/libtexel.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -pthread -ldl -o $@
 
 # fetch leaves alone what is there, so its files may be older than the manifest: touch says they are checked.
 $(FETCHED) &: assets/fetch assets/manifest.csv
@@ -67,4 +72,4 @@ light-field: $(B)/light-field ## (SIZE=512x256x32x32 SCENE=composed) make a ligh
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz
 	$(Q)unzip -p $< arr_0.npy >$@.part && mv $@.part $@
 
--include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d $(B)/object.d $(B)/light-field.d
+-include $(B)/generate.d $(B)/stereo.d $(B)/terrain.d $(B)/relief.d $(B)/object.d

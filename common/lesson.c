@@ -68,7 +68,7 @@ static void list_camera(const char *role, const char *name, const Camera *c) {
 
 static void list_asset(const char *role, const char *chosen, const char *name) {
     if (name && chosen) printf("  %s %s\n", role, chosen);
-    if (name && !chosen) printf("  %s %s/build/assets/%s\n", role, project_folder(), name);
+    if (name && *name && !chosen) printf("  %s %s/build/assets/%s\n", role, project_folder(), name);
 }
 
 /* The scale that the scene will have, from --scale or the height's file, which is all that is read of it

@@ -12,7 +12,8 @@ typedef struct Lesson Lesson;
 typedef struct Scene Scene;
 typedef struct Technique Technique;
 
-/* What the user chose for a scene's loading. The paths are never NULL where the scene names an image. */
+/* What the user chose for a scene's loading. The paths are never NULL where the scene names an image; where
+ * its colour is "", that is NULL unless the user gave one. */
 typedef struct {
     const char *scene;           /* its name */
     const char *colour, *height; /* full paths: the user's own, or the scene's in the assets folder */
@@ -117,11 +118,13 @@ struct Scene {
     Technique techniques[TECHNIQUES_MAX]; /* the first is what costs are held against */
     View views[VIEWS_MAX];
     Vec3 background;
-    const char *colour, *height; /* assets by file name; --colour and --height replace them */
-    const char *other[2];        /* assets that cannot be replaced */
+    /* Assets by file name; --colour and --height replace them. colour "": the scene makes its own, but takes
+     * a user's file (of any kind), which its truth must not depend on. */
+    const char *colour, *height;
+    const char *other[2]; /* assets that cannot be replaced */
     Fact facts[FACTS_MAX];
     void (*list)(const Scene *scene); /* prints more lines for --list, two spaces in front; or NULL */
-    int samples;       /* rays a pixel of the truth; 0: SAMPLES */
+    int samples;                      /* rays a pixel of the truth; 0: SAMPLES */
     bool brief_extras; /* with --brief no rmse, psnr_db and max_abs of extra views: their exact pictures take
                           long */
     bool gaussian;     /* report against the Gaussian pixel filter too */

@@ -70,7 +70,7 @@ static uint64_t truth_key(const Stage *stage) {
     }
     hash_bytes(&hash, stage->scene->name, strlen(stage->scene->name));
     hash_bytes(&hash, &options->scale, sizeof options->scale);
-    hash_file(&hash, options->colour);
+    if (stage->scene->colour && *stage->scene->colour) hash_file(&hash, options->colour);
     hash_file(&hash, options->height);
     for (int i = 0; i < 2; i++) hash_file(&hash, options->other[i]);
     return hash;
@@ -79,12 +79,13 @@ static uint64_t truth_key(const Stage *stage) {
 /* ---- Opening and closing ---- */
 
 static const char *asset(const char *chosen, const char *name) {
-    if (!name) return NULL;
+    if (!name || (!*name && !chosen)) return NULL;
     return chosen ? text("%s", chosen) : project_path("build/assets/%s", name);
 }
 
 Stage stage_open(const Lesson *lesson, const Scene *scene, const Options *options) {
-    Stage stage = {.lesson = lesson, .scene = scene, .options = {.scene = scene->name, .scale = options->scale}};
+    Stage stage = {
+        .lesson = lesson, .scene = scene, .options = {.scene = scene->name, .scale = options->scale}};
     stage.options.colour = asset(options->colour, scene->colour);
     stage.options.height = asset(options->height, scene->height);
     for (int i = 0; i < 2; i++) stage.options.other[i] = asset(NULL, scene->other[i]);

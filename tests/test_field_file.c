@@ -9,7 +9,7 @@
 
 #include "random.h"
 
-#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -254,12 +254,382 @@ static void the_format_is_as_documented(void **state) {
     assert_true(sum == word);
 }
 
+/* ---- Refusals ---- */
+
+/* Opening, and then reading all of it, must be refused, for a reason that holds `part`. */
+static void assert_refused(const char *part) {
+    FieldFile file;
+    const char *reason = field_file_open(&file, path);
+    if (!reason) {
+        reason = field_file_check(&file);
+        field_file_close(&file);
+    }
+    assert_says(reason, part);
+}
+
+static void refuses_what_is_no_light_field(void **state) {
+    (void)state;
+    FieldFile file;
+    remove(path);
+    assert_refused("No such file");
+    assert_says(field_file_open(&file, folder), "Is a directory");
+    assert_says(field_file_open(&file, "/dev/zero"), "not a regular file");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_refused("not a regular file"); /* and does not wait for somebody to write */
+    remove(path);
+    file_write(path, "", 0);
+    assert_refused("empty");
+    file_write(path, "TXLFIEL", 7);
+    assert_refused("not a light field");
+    file_write(path, "This is a letter to a friend.\n", 30);
+    assert_refused("not a light field");
+    memset(scratch, 0, 4096);
+    file_write(path, scratch, 4096);
+    assert_refused("not a light field");
+}
+
+/* At each boundary within the file, and just before and behind it. */
+static void assert_truncations(const Bytes *of, const FieldSection *sections, int count) {
+    size_t ends[128] = {8, 12, 64, HEADER}, n = 4;
+    for (int i = 0; i < count; i++) {
+        size_t at = (size_t)sections[i].offset, end = at + (size_t)sections[i].length;
+        ends[n++] = at - HEAD + 4, ends[n++] = at - HEAD + 8, ends[n++] = at;
+        ends[n++] = at + sections[i].length / 2, ends[n++] = end, ends[n++] = end + SUM;
+    }
+    ends[n++] = of->size - SUM, ends[n++] = of->size;
+    assert_true(n < sizeof ends / sizeof *ends);
+    for (size_t i = 0; i < n; i++)
+        for (int more = -1; more <= 1; more++) {
+            size_t size = ends[i] + (size_t)more;
+            memcpy(changed.bytes, of->bytes, of->size);
+            changed.bytes[of->size] = 0;
+            file_write(path, changed.bytes, size);
+            FieldFile file;
+            if (size == of->size) {
+                succeeds(field_file_open(&file, path));
+                succeeds(field_file_check(&file));
+                field_file_close(&file);
+            } else
+                assert_refused(size > of->size ? "behind its end" : size < 8 ? "not a light" : "truncated");
+        }
+}
+
+static void refuses_truncated_files(void **state) {
+    (void)state;
+    FieldFile file;
+    for (int i = 0; i < 2; i++) {
+        const Bytes *of = i ? &raw : &whole;
+        file_write(path, of->bytes, of->size);
+        succeeds(field_file_open(&file, path));
+        FieldSection sections[16];
+        int count = file.count;
+        memcpy(sections, file.sections, (size_t)count * sizeof *sections);
+        field_file_close(&file);
+        assert_truncations(of, sections, count);
+    }
+}
+
+/* One to four bytes changed anywhere, two thousand times; half of them in headers, heads and checksums, which
+ * are but a small part of the file. */
+static void refuses_changed_bytes(void **state) {
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        const Bytes *of = i % 2 ? &raw : &whole;
+        memcpy(changed.bytes, of->bytes, of->size);
+        int changes = 1 + i / 2 % 4;
+        for (int k = 0; k < changes; k++) {
+            size_t at = (size_t)random_in(0, (double)of->size);
+            if (i / 8 % 2) { /* in the header, or around a section of the raw one */
+                size_t step = of == &raw ? HEAD + 1920 + SUM : (size_t)random_in(1, 40000);
+                at = (size_t)random_in(0, HEADER + HEAD);
+                if (at >= HEADER - SUM) at += step * (size_t)random_in(0, of == &raw ? 10 : 7);
+            }
+            if (at >= of->size) at = of->size - 1;
+            changed.bytes[at] ^= (uint8_t)(k ? random_in(1, 256) : 1 << (int)random_in(0, 8));
+        }
+        if (memcmp(changed.bytes, of->bytes, of->size) == 0) continue;
+        file_write(path, changed.bytes, of->size);
+        assert_refused("");
+    }
+}
+
+/* What no checksum sees: all bytes of a section moved to where another was. */
+static void refuses_sections_in_another_order(void **state) {
+    (void)state;
+    size_t section = HEAD + 1920 + SUM;
+    memcpy(changed.bytes, raw.bytes, raw.size);
+    memcpy(changed.bytes + HEADER, raw.bytes + HEADER + section, section);
+    memcpy(changed.bytes + HEADER + section, raw.bytes + HEADER, section);
+    file_write(path, changed.bytes, raw.size);
+    assert_refused("section 0 is not row 0");
+    /* An encoded file is free in its order, but each checksum goes on from the one before. */
+    memcpy(changed.bytes, whole.bytes, whole.size);
+    size_t first = HEADER + HEAD + SUM + HEAD + 1 + SUM; /* behind the sections of 0 and 1 bytes */
+    size_t a = HEAD + 7 + SUM, b = HEAD + 8 + SUM;
+    memcpy(changed.bytes + first, whole.bytes + first + a, b);
+    memcpy(changed.bytes + first + b, whole.bytes + first, a);
+    file_write(path, changed.bytes, whole.size);
+    assert_refused("the checksum of section 2 is wrong");
+    /* One is left out, and what counts them put right. */
+    memcpy(changed.bytes, whole.bytes, first);
+    memcpy(changed.bytes + first, whole.bytes + first + a, whole.size - first - a);
+    changed.bytes[whole.size - a - SUM - HEAD + 4]--;
+    file_write(path, changed.bytes, whole.size - a);
+    assert_refused("broken");
+}
+
+/* A header that says what it should not, with the right checksum; behind it 64 zeros. */
+static void assert_header_refused(size_t at, const void *bytes, size_t count, const char *part) {
+    memcpy(changed.bytes, raw.bytes, HEADER);
+    memset(changed.bytes + HEADER, 0, 64);
+    memcpy(changed.bytes + at, bytes, count);
+    uint64_t sum = field_checksum(0, changed.bytes, HEADER - SUM);
+    memcpy(changed.bytes + HEADER - SUM, &sum, SUM); /* (of little endian, as all machines that test this) */
+    file_write(path, changed.bytes, HEADER + 64);
+    assert_refused(part);
+}
+
+static void refuses_absurd_headers(void **state) {
+    (void)state;
+    struct rusage before, after;
+    getrusage(RUSAGE_SELF, &before);
+    static const uint32_t sides[] = {0, 1, 7, 1025, 1000000, 0x7fffffffu, 0x80000000u, 0xffffffffu};
+    for (size_t at = 24; at < 40; at += 4)
+        for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
+            assert_header_refused(at, &sides[i], 4,
+                                  sides[i] > 0x7fffffffu ? "its header says" : "a light field of ");
+    assert_header_refused(24, (uint32_t[]){1000000, 1000000, 1000000, 1000000}, 16, "1000000x1000000");
+    assert_header_refused(24, (uint32_t[]){9}, 4, "an odd number");
+    assert_header_refused(32, (uint32_t[]){257}, 4, "more than 1024 texels along u or v, or 256");
+    assert_header_refused(8, (uint32_t[]){2}, 4, "version 2: this program reads version 1");
+    assert_header_refused(8, (uint32_t[]){0}, 4, "version 0");
+    assert_header_refused(16, (uint32_t[]){3}, 4, "model is number 3");
+    assert_header_refused(20, (uint32_t[]){3}, 4, "angles are number 3");
+    assert_header_refused(20, (uint32_t[]){0xffffffffu}, 4, "its header says 4294967295");
+    for (int i = 0; i < 3; i++)
+        assert_header_refused(40, (uint32_t[]){(uint32_t[]){0, 4097, 0x80000000u}[i]}, 4, "");
+    assert_header_refused(44, (uint32_t[]){2}, 4, "through is 2");
+    const double radii[] = {0, -0.0, -3.5, NAN, -NAN, INFINITY, -INFINITY, 1e300, 1e-300};
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
+        assert_header_refused(48, &radii[i], 8, "a model of radius");
+    assert_header_refused(56, (double[]){6}, 8, "a sphere of height 6");
+    assert_header_refused(56, (double[]){NAN}, 8, "a sphere of height");
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
+        memcpy(scratch, raw.bytes + 16, 40);
+        scratch[0] = FIELD_CYLINDER, memcpy(scratch + 40, &radii[i], 8);
+        assert_header_refused(16, scratch, 48, "a cylinder of height");
+    }
+    assert_header_refused(64, "", 1, "no proper name");
+    assert_header_refused(64, "a line\n", 7, "no proper name");
+    assert_header_refused(64, "abcdefghijklmnopqrstuvwxyz", 24, "no proper name");
+    assert_header_refused(96 + 20, (uint32_t[]){1}, 4, "a raw light field with a codec's parameters");
+    /* And sections that promise too much, or do not fit the header. */
+    uint64_t lengths_absurd[] = {1,         1920, 1ull << 32, 1ull << 62, UINT64_MAX - 23, UINT64_MAX - 24,
+                                 UINT64_MAX};
+    for (size_t i = 0; i < sizeof lengths_absurd / sizeof *lengths_absurd; i++) {
+        memcpy(changed.bytes, raw.bytes, raw.size);
+        memcpy(changed.bytes + HEADER + 8, &lengths_absurd[i], 8);
+        if (lengths_absurd[i] == 1920) changed.bytes[HEADER] = 'r';
+        file_write(path, changed.bytes, raw.size);
+        assert_refused(lengths_absurd[i] <= 1920 ? "section 0 is not row 0 of 1920 bytes"
+                                                 : "goes on beyond its end");
+    }
+    getrusage(RUSAGE_SELF, &after);
+    assert_true(after.ru_maxrss - before.ru_maxrss < 4096); /* KiB */
+}
+
+/* A writer refuses the same headers, and writes nothing then. */
+static void writers_refuse_too(void **state) {
+    (void)state;
+    FieldWriter writer;
+    FieldHeader header = header_small();
+    remove(path);
+    header.field.u = 7;
+    assert_says(field_writer_open(&writer, path, &header), "fewer than 8");
+    header = header_small(), header.field.radius = NAN;
+    assert_says(field_writer_open(&writer, path, &header), "radius");
+    header = header_small(), header.scene[0] = ' ';
+    assert_says(field_writer_open(&writer, path, &header), "no proper name");
+    header = header_small();
+    assert_says(field_writer_open(&writer, folder, &header), "not a regular file");
+    assert_says(field_writer_open(&writer, "/dev/null/a.field", &header), "Not a directory");
+    assert_false(is_there(partial));
+    succeeds(field_writer_open(&writer, path, &header));
+    add_rows(&writer, 8);
+    assert_says(field_writer_finish(&writer), "8 of 9 rows");
+    assert_says(field_writer_add(&writer, FIELD_ROWS, 7, scratch, 1920), "is not row 8");
+    assert_says(field_writer_add(&writer, FIELD_ROWS, 8, scratch, 1919), "is not row 8 of 1920 bytes");
+    assert_says(field_writer_add(&writer, FIELD_TAG('P', 'A', 'R', 'T'), 8, scratch, 1920), "is not row 8");
+    assert_says(field_writer_add(&writer, FIELD_END, 8, scratch, 0), "the tag of the end");
+    add_rows(&writer, 9);
+    assert_says(field_writer_add(&writer, FIELD_ROWS, 9, scratch, 1920), "more rows");
+    succeeds(field_writer_finish(&writer));
+    field_writer_close(&writer);
+    file_read(path, &changed);
+    assert_int_equal(changed.size, raw.size);
+    assert_memory_equal(changed.bytes, raw.bytes, raw.size);
+}
+
+/* ---- Going on ---- */
+
+/* From a partial file of `size` bytes of `of`, `torn` more that are not as they should be, and `kept` whole
+ * sections: the same file. */
+static void assert_goes_on(const Bytes *of, size_t size, int torn, int kept) {
+    FieldWriter writer;
+    FieldHeader header = of == &raw ? header_small() : header_encoded();
+    memcpy(changed.bytes, of->bytes, of->size);
+    for (int i = 0; i < torn; i++) changed.bytes[size + (size_t)i] ^= 0x55;
+    remove(path);
+    file_write(partial, changed.bytes, size + (size_t)torn);
+    succeeds(field_writer_open(&writer, path, &header));
+    assert_int_equal(writer.file.count, kept);
+    for (int i = 0; i < kept; i++) { /* what is there can be read */
+        size_t length = (size_t)writer.file.sections[i].length;
+        succeeds(field_file_section(&writer.file, i, scratch));
+        fill(expected, length, i);
+        assert_memory_equal(scratch, expected, length);
+    }
+    if (of == &raw)
+        add_rows(&writer, 9);
+    else
+        add_sections(&writer);
+    succeeds(field_writer_finish(&writer));
+    field_writer_close(&writer);
+    file_read(path, &changed);
+    assert_int_equal(changed.size, of->size);
+    assert_memory_equal(changed.bytes, of->bytes, of->size);
+}
+
+static void goes_on_behind_each_section(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const Bytes *of = i ? &raw : &whole;
+        size_t at = HEADER, length;
+        for (int k = 0; k <= (i ? 9 : SECTIONS); k++, at += HEAD + length + SUM) {
+            bool last = k == (i ? 9 : SECTIONS);
+            length = last ? 0 : i ? 1920 : lengths[k];
+            size_t end = at + HEAD + length + SUM;
+            assert_goes_on(of, at, 0, k);
+            assert_goes_on(of, at + 1, 0, k);
+            assert_goes_on(of, at + HEAD, 0, k);
+            assert_goes_on(of, end - 1, 0, k);
+            assert_goes_on(of, end - 1, 1, k);
+            assert_goes_on(of, end - SUM - 1, 0, k);
+            assert_goes_on(of, at, last ? 4 : 20, k);
+            if (!last && length) assert_goes_on(of, end - SUM - 1, 1, k); /* the last byte of a payload */
+        }
+        assert_goes_on(of, of->size, 0, i ? 9 : SECTIONS); /* all but renamed */
+        assert_goes_on(of, 0, 0, 0);
+        assert_goes_on(of, 1, 0, 0);
+        assert_goes_on(of, HEADER - 1, 0, 0);
+    }
+}
+
+static void leaves_what_is_of_another_header(void **state) {
+    (void)state;
+    FieldWriter writer, second;
+    FieldHeader header = header_small();
+    header.samples++;
+    file_write(partial, raw.bytes, raw.size - 100);
+    assert_says(field_writer_open(&writer, path, &header), "a.field.partial is the beginning of another");
+    header = header_small(), header.scene_key++;
+    assert_says(field_writer_open(&writer, path, &header), "another light field");
+    file_read(partial, &changed);
+    assert_int_equal(changed.size, raw.size - 100);
+    assert_memory_equal(changed.bytes, raw.bytes, changed.size);
+    header = header_small();
+    memset(scratch, 'x', 300);
+    file_write(partial, scratch, 300);
+    assert_says(field_writer_open(&writer, path, &header),
+                "a.field.partial is in its way: not a light field");
+    remove(partial);
+    succeeds(field_writer_open(&writer, path, &header)); /* nor what another is at */
+    assert_says(field_writer_open(&second, path, &header), "another program is writing it");
+    add_rows(&writer, 2);
+    field_writer_close(&writer);
+    succeeds(field_writer_open(&second, path, &header));
+    assert_int_equal(second.file.count, 2);
+    field_writer_close(&second);
+    remove(partial);
+}
+
+/* A disk that is full, as far as one can have that here: a limit on the size of files. */
+static void says_that_the_disk_is_full(void **state) {
+    (void)state;
+    FieldWriter writer;
+    FieldHeader header = header_small();
+    struct rlimit before, limit;
+    remove(path);
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    limit = before, limit.rlim_cur = 5000;
+    succeeds(field_writer_open(&writer, path, &header));
+    add_rows(&writer, 2);
+    memset(scratch, 1, 1920);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const char *reason = field_writer_add(&writer, FIELD_ROWS, 2, scratch, 1920);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_says(reason, "File too large");
+    assert_int_equal(writer.file.count, 2);
+    assert_false(is_there(path));
+    add_rows(&writer, 9); /* what was torn is written over */
+    succeeds(field_writer_finish(&writer));
+    field_writer_close(&writer);
+    file_read(path, &changed);
+    assert_int_equal(changed.size, raw.size);
+    assert_memory_equal(changed.bytes, raw.bytes, raw.size);
+    /* Also where less comes behind it than was torn. */
+    header = header_encoded();
+    succeeds(field_writer_open(&writer, path, &header));
+    setrlimit(RLIMIT_FSIZE, &limit);
+    reason = field_writer_add(&writer, FIELD_ROWS, 0, scratch, sizeof scratch);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_non_null(reason);
+    succeeds(field_writer_add(&writer, FIELD_ROWS, 0, scratch, 10));
+    succeeds(field_writer_finish(&writer));
+    field_writer_close(&writer);
+    FieldFile file;
+    succeeds(field_file_open(&file, path));
+    succeeds(field_file_check(&file));
+    field_file_close(&file);
+}
+
+/* ---- The checksum ---- */
+
+static void checksums_see_every_bit(void **state) {
+    (void)state;
+    uint8_t bytes[41];
+    fill(bytes, sizeof bytes, 3);
+    for (size_t count = 0; count < sizeof bytes; count++) {
+        uint64_t sum = field_checksum(0, bytes, count);
+        for (size_t bit = 0; bit < 8 * count; bit++) {
+            bytes[bit / 8] ^= 1 << bit % 8;
+            assert_true(field_checksum(0, bytes, count) != sum);
+            bytes[bit / 8] ^= 1 << bit % 8;
+        }
+        assert_true(field_checksum(1, bytes, count) != sum);
+        if (count % 8 == 0) /* it goes on */
+            assert_true(field_checksum(sum, bytes + count, sizeof bytes - count) ==
+                        field_checksum(0, bytes, sizeof bytes));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_come_back),
         cmocka_unit_test(sections_come_back),
         cmocka_unit_test(headers_come_back),
         cmocka_unit_test(the_format_is_as_documented),
+        cmocka_unit_test(refuses_what_is_no_light_field),
+        cmocka_unit_test(refuses_truncated_files),
+        cmocka_unit_test(refuses_changed_bytes),
+        cmocka_unit_test(refuses_sections_in_another_order),
+        cmocka_unit_test(refuses_absurd_headers),
+        cmocka_unit_test(writers_refuse_too),
+        cmocka_unit_test(goes_on_behind_each_section),
+        cmocka_unit_test(leaves_what_is_of_another_header),
+        cmocka_unit_test(says_that_the_disk_is_full),
+        cmocka_unit_test(checksums_see_every_bit),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("field_file", tests, files_make, folder_remove);
