@@ -21,7 +21,7 @@ static const struct {
 } scenes[] = {
     {"composed", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
     {"effects", {&light_effects, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
-    {"aliasing", {&light_aliasing, {FIELD_SPHERE, SIZE(512, 256, 32, 32)}, SAMPLES_USUAL, false}},
+    {"aliasing", {&light_aliasing, {FIELD_SPHERE, SIZE(256, 128, 32, 32)}, SAMPLES_USUAL, false}},
     {"figure-7", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
     {"placements", {&light_placements, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, true}},
     {"cylinder",
