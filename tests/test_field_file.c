@@ -232,6 +232,54 @@ static void headers_come_back(void **state) {
     }
 }
 
+static void assert_other_key(const LightScene *scene, const LightScene *other) {
+    const Field field = header_small().field;
+    FieldHeader a = field_header(&field, scene, 7, false), b = field_header(&field, other, 7, false);
+    assert_true(a.scene_key != b.scene_key);
+    assert_false(field_header_equal(&a, &b));
+}
+
+/* A scene that was changed is told from one of the same name as it was. */
+static void scenes_are_told_apart(void **state) {
+    (void)state;
+    for (int change = 0; change < 10; change++) {
+        LightScene scene = light_effects;
+        Solid *last = &scene.solids[scene.count - 1];
+        switch (change) {
+        case 0: scene.count--; break;
+        case 1: scene.toward_light.z += 1e-15; break;
+        case 2: scene.effects = false; break;
+        case 3: last->kind = SOLID_SPHERE; break;
+        case 4: last->size.x = nextafter(last->size.x, 9); break;
+        case 5: last->centre.y = nextafter(last->centre.y, 9); break;
+        case 6: last->turn_degrees.z = 1; break;
+        case 7: last->colour.z = 0.5; break;
+        case 8: scene.mirror[scene.count - 1] = 0.1; break;
+        case 9: scene.clear[0] = 0.1; break;
+        }
+        assert_other_key(&light_effects, &scene);
+    }
+    LightScene same = light_composed; /* what has no effects has no mirrors */
+    same.mirror[0] = 0.5, same.name = "composed";
+    const Field field = header_small().field;
+    FieldHeader a = field_header(&field, &light_composed, 7, false),
+                b = field_header(&field, &same, 7, false);
+    assert_true(field_header_equal(&a, &b));
+    assert_string_equal(a.scene, "composed");
+}
+
+/* Behind those bytes of the raw file is their checksum, in the plainest way. */
+static void assert_plain_sum(size_t at, size_t count) {
+    uint64_t sum = 0, word;
+    for (size_t end = at + count; at < end; at += 8) {
+        memcpy(&word, raw.bytes + at, 8);
+        sum = (sum ^ word) * 0x9e3779b97f4a7c15u;
+        sum ^= sum >> 32;
+    }
+    memcpy(&word, raw.bytes + at, 8);
+    assert_true(sum == word);
+}
+
 /* The bytes that assets/README.md promises, made here by hand. */
 static void the_format_is_as_documented(void **state) {
     (void)state;
@@ -244,14 +292,9 @@ static void the_format_is_as_documented(void **state) {
     assert_memory_equal(raw.bytes + 64, "composed\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 24);
     assert_memory_equal(raw.bytes + HEADER, "ROWS\0\0\0\0\x80\x07\0\0\0\0\0\0", HEAD);
     assert_memory_equal(raw.bytes + raw.size - HEAD - SUM, "END \x09\0\0\0\0\0\0\0\0\0\0\0", HEAD);
-    uint64_t sum = 0, word; /* the header's checksum, in the plainest way */
-    for (int i = 0; i < 120; i += 8) {
-        memcpy(&word, raw.bytes + i, 8);
-        sum = (sum ^ word) * 0x9e3779b97f4a7c15u;
-        sum ^= sum >> 32;
-    }
-    memcpy(&word, raw.bytes + 120, 8);
-    assert_true(sum == word);
+    assert_plain_sum(0, 120);
+    for (size_t v = 0; v < 9; v++) assert_plain_sum(120 + v * (24 + 1920), 24 + 1920);
+    assert_plain_sum(raw.size - SUM - HEAD - SUM, SUM + HEAD);
 }
 
 /* ---- Refusals ---- */
@@ -378,6 +421,48 @@ static void refuses_sections_in_another_order(void **state) {
     assert_refused("broken");
 }
 
+/* An end with the right checksum, behind `size` bytes of a file, that counts `number` sections. */
+static void assert_end_refused(const Bytes *of, size_t size, uint32_t number, const char *part) {
+    memcpy(changed.bytes, of->bytes, size);
+    memset(changed.bytes + size, 0, HEAD);
+    memcpy(changed.bytes + size, "END ", 4);
+    memcpy(changed.bytes + size + 4, &number, 4);
+    uint64_t sum = field_checksum(0, changed.bytes + size - SUM, SUM + HEAD);
+    memcpy(changed.bytes + size + HEAD, &sum, SUM);
+    file_write(path, changed.bytes, size + HEAD + SUM);
+    if (part)
+        assert_refused(part);
+    else {
+        FieldFile file;
+        succeeds(field_file_open(&file, path));
+        field_file_close(&file);
+    }
+}
+
+static void refuses_ends_that_count_wrongly(void **state) {
+    (void)state;
+    size_t behind = whole.size - HEAD - SUM, row = HEAD + 1920 + SUM;
+    assert_end_refused(&whole, behind, SECTIONS, NULL);
+    assert_end_refused(&whole, behind, SECTIONS - 1, "its end is wrong");
+    assert_end_refused(&whole, behind, SECTIONS + 1, "its end is wrong");
+    assert_end_refused(&raw, HEADER + 9 * row, 9, NULL);
+    assert_end_refused(&raw, HEADER + 5 * row, 5, "5 of 9 rows");
+    assert_end_refused(&raw, HEADER, 0, "0 of 9 rows");
+}
+
+static void notices_that_a_file_shrinks(void **state) {
+    (void)state;
+    FieldFile file;
+    file_write(path, raw.bytes, raw.size);
+    succeeds(field_file_open(&file, path));
+    assert_int_equal(truncate(path, HEADER + 3 * (HEAD + 1920 + SUM) - 1), 0);
+    succeeds(field_file_section(&file, 1, scratch));
+    assert_says(field_file_section(&file, 2, scratch), "truncated");
+    assert_says(field_file_section(&file, 3, scratch), "truncated");
+    assert_says(field_file_check(&file), "truncated");
+    field_file_close(&file);
+}
+
 /* A header that says what it should not, with the right checksum; behind it 64 zeros. */
 static void assert_header_refused(size_t at, const void *bytes, size_t count, const char *part) {
     memcpy(changed.bytes, raw.bytes, HEADER);
@@ -406,8 +491,9 @@ static void refuses_absurd_headers(void **state) {
     assert_header_refused(16, (uint32_t[]){3}, 4, "model is number 3");
     assert_header_refused(20, (uint32_t[]){3}, 4, "angles are number 3");
     assert_header_refused(20, (uint32_t[]){0xffffffffu}, 4, "its header says 4294967295");
-    for (int i = 0; i < 3; i++)
-        assert_header_refused(40, (uint32_t[]){(uint32_t[]){0, 4097, 0x80000000u}[i]}, 4, "");
+    assert_header_refused(40, (uint32_t[]){0}, 4, "0 rays a texel");
+    assert_header_refused(40, (uint32_t[]){4097}, 4, "4097 rays a texel");
+    assert_header_refused(40, (uint32_t[]){0x80000000u}, 4, "its header says");
     assert_header_refused(44, (uint32_t[]){2}, 4, "through is 2");
     const double radii[] = {0, -0.0, -3.5, NAN, -NAN, INFINITY, -INFINITY, 1e300, 1e-300};
     for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
@@ -483,7 +569,10 @@ static void assert_goes_on(const Bytes *of, size_t size, int torn, int kept) {
     file_write(partial, changed.bytes, size + (size_t)torn);
     succeeds(field_writer_open(&writer, path, &header));
     assert_int_equal(writer.file.count, kept);
-    for (int i = 0; i < kept; i++) { /* what is there can be read */
+    struct stat about;
+    stat(partial, &about);
+    assert_int_equal(about.st_size, writer.file.bytes); /* nothing that is torn is left */
+    for (int i = 0; i < kept; i++) {                    /* what is there can be read */
         size_t length = (size_t)writer.file.sections[i].length;
         succeeds(field_file_section(&writer.file, i, scratch));
         fill(expected, length, i);
@@ -537,6 +626,8 @@ static void leaves_what_is_of_another_header(void **state) {
     file_read(partial, &changed);
     assert_int_equal(changed.size, raw.size - 100);
     assert_memory_equal(changed.bytes, raw.bytes, changed.size);
+    file_write(partial, raw.bytes, HEADER);
+    assert_says(field_writer_open(&writer, path, &header), "another light field");
     header = header_small();
     memset(scratch, 'x', 300);
     file_write(partial, scratch, 300);
@@ -619,11 +710,14 @@ int main(void) {
         cmocka_unit_test(rows_come_back),
         cmocka_unit_test(sections_come_back),
         cmocka_unit_test(headers_come_back),
+        cmocka_unit_test(scenes_are_told_apart),
         cmocka_unit_test(the_format_is_as_documented),
         cmocka_unit_test(refuses_what_is_no_light_field),
         cmocka_unit_test(refuses_truncated_files),
         cmocka_unit_test(refuses_changed_bytes),
         cmocka_unit_test(refuses_sections_in_another_order),
+        cmocka_unit_test(refuses_ends_that_count_wrongly),
+        cmocka_unit_test(notices_that_a_file_shrinks),
         cmocka_unit_test(refuses_absurd_headers),
         cmocka_unit_test(writers_refuse_too),
         cmocka_unit_test(goes_on_behind_each_section),
