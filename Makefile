@@ -24,7 +24,7 @@ EMBREE_LIBS := -lembree3
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(LIBRARIES) $(LESSONS:%=$(B)/%) assets ## build everything
+all: $(LIBRARIES) $(LESSONS:%=$(B)/%) $(B)/light-field assets ## build everything
 
 help: ## list these commands
 	@grep -hE '^[^#[:space:]].*:.*## ' $(MAKEFILE_LIST) | sed -E 's/^.*: ([a-z-]*)%:/\1NN:/; s/:.*## /\t/' \

@@ -30,8 +30,9 @@ static Sample miss(const void *data, Ray ray) {
 }
 
 #define SCENE                                                                                                \
-    .techniques = {{"paint", "nothing", .paint = paint}},                                                    \
-    .views = {{"front", {.eye = {0, 0, 2}, .up = {0, 1, 0}, .fov_y_degrees = 40, .near = 0.1, .far = 10}}},  \
+    .techniques = {{.name = "paint", .what = "nothing", .paint = paint}},                                    \
+    .views = {{.name = "front",                                                                              \
+               .camera = {.eye = {0, 0, 2}, .up = {0, 1, 0}, .fov_y_degrees = 40, .near = 0.1, .far = 10}}}, \
     .load = load, .unload = unload, .truth = miss
 
 static const Lesson lesson = {.name = "18-light-field",
