@@ -58,7 +58,8 @@ relief: $(B)/relief ## (COLOUR=a.png HEIGHT=b.png OUT=c.png) make a relief textu
 		$(if $(WIDTH),--width '$(WIDTH)') $(if $(UNIT),--unit '$(UNIT)') -- '$(COLOUR)' '$(HEIGHT)' '$(OUT)'
 
 # Hundreds of megabytes, so no part of `make all`. What was stopped goes on, and what is there stays.
-FIELD_OUT = $(or $(OUT),$(B)/fields/$(or $(SCENE),composed)-$(SIZE)-$(or $(SAMPLES),7)$(addprefix -,$(filter-out linear,$(ANGLES)))$(addprefix -,$(MODEL)).field)
+FIELD_KIND = $(addprefix -,$(filter-out linear,$(ANGLES)))$(addprefix -,$(MODEL))
+FIELD_OUT = $(or $(OUT),$(B)/fields/$(or $(SCENE),composed)-$(SIZE)-$(or $(SAMPLES),7)$(FIELD_KIND).field)
 light-field: $(B)/light-field ## (SIZE=512x256x32x32 SCENE=composed) make a light field as a file, in build/fields
 	$(if $(SIZE),,$(error usage: make light-field SIZE=512x256x32x32 \
 		[SCENE=composed SAMPLES=7 ANGLES=linear MODEL=sphere OUT=a.field]))

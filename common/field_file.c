@@ -39,10 +39,8 @@ void field_file_demand(const char *reason, const char *path) {
 
 /* ---- Numbers in bytes ---- */
 
-static void put(uint8_t *at, const void *number, size_t size) { memcpy(at, number, size); }
-
-static void put_32(uint8_t *at, uint32_t x) { put(at, &(uint32_t){htole32(x)}, 4); }
-static void put_64(uint8_t *at, uint64_t x) { put(at, &(uint64_t){htole64(x)}, 8); }
+static void put_32(uint8_t *at, uint32_t x) { memcpy(at, &(uint32_t){htole32(x)}, 4); }
+static void put_64(uint8_t *at, uint64_t x) { memcpy(at, &(uint64_t){htole64(x)}, 8); }
 
 static uint32_t get_32(const uint8_t *at) {
     uint32_t x;
@@ -98,10 +96,10 @@ static const char *read_at(int descriptor, void *bytes, size_t count, uint64_t o
 
 static const char *write_at(int descriptor, const void *bytes, size_t count, uint64_t offset) {
     for (const uint8_t *at = bytes; count > 0;) {
-        ssize_t put = pwrite(descriptor, at, count, (off_t)offset);
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return strerror(errno);
-        at += put, count -= (size_t)put, offset += (uint64_t)put;
+        ssize_t written = pwrite(descriptor, at, count, (off_t)offset);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return strerror(errno);
+        at += written, count -= (size_t)written, offset += (uint64_t)written;
     }
     return NULL;
 }
@@ -265,6 +263,8 @@ static const char *section_at(const FieldFile *file, uint64_t at, FieldSection *
 
 static uint64_t section_end(const FieldSection *section) { return section->offset + section->length + SUM; }
 
+static const char wrong[] = "a wrong checksum";
+
 /* Reads a payload and checks it. Its checksum goes on from the bytes in front of it: the checksum before
  * it, and its own head. */
 static const char *section_read(const FieldFile *file, const FieldSection *section, uint8_t *payload) {
@@ -279,15 +279,13 @@ static const char *section_read(const FieldFile *file, const FieldSection *secti
     }
     free(chunk);
     if (!failed) failed = read_at(file->descriptor, after, SUM, section->offset + section->length);
-    return failed ? failed : get_64(after) == sum ? NULL : "wrong";
+    return failed ? failed : get_64(after) == sum ? NULL : wrong;
 }
 
 const char *field_file_section(const FieldFile *file, int index, void *payload) {
     if (index < 0 || index >= file->count) return because("no section %d of %d", index, file->count);
     const char *failed = section_read(file, &file->sections[index], payload);
-    if (failed && strcmp(failed, "wrong") == 0)
-        return because("broken: the checksum of section %d is wrong", index);
-    return failed;
+    return failed == wrong ? because("broken: the checksum of section %d is wrong", index) : failed;
 }
 
 const char *field_file_check(const FieldFile *file) {
