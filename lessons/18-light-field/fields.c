@@ -103,7 +103,8 @@ static void say_progress(const Recipe *recipe, int done, double start, double *s
 static void read_rows(const FieldFile *file, const char *path, int first, int count, uint8_t *rows) {
     for (int i = 0; i < count; i++) {
         int index = field_file_find(file, FIELD_ROWS, (uint32_t)(first + i));
-        field_file_demand(field_file_section(file, index, rows + field_row(&file->header.field) * (size_t)i), path);
+        field_file_demand(field_file_section(file, index, rows + field_row(&file->header.field) * (size_t)i),
+                          path);
     }
 }
 
