@@ -115,28 +115,29 @@ Made field_make(const Recipe *recipe, const FieldFile *file, const char *path) {
         synthesis_create(field, recipe->scene, file ? 1 : recipe->samples, recipe->through);
     size_t row = field_row(field), row_texels = row / FIELD_TEXEL;
     uint8_t *rows = allocate(ROWS, row);
-    float *row_depths = allocate(ROWS * row_texels, sizeof(float));
+    float *row_depths = recipe->flat ? NULL : allocate(ROWS * row_texels, sizeof(float));
     Image plain = image_create(field->u, field->v, 3);
-    Depths depths = depths_create(field);
+    Depths depths = {0};
+    if (row_depths) depths = depths_create(field);
     if (field_bytes(field) <= FIELD_KEPT) made.texels = allocate(field_bytes(field), 1);
     double start = clock_seconds(), said = start;
     for (int v = 0; v < field->v; v += ROWS) {
         int count = field->v - v < ROWS ? field->v - v : ROWS;
         double begun = clock_seconds();
-        synthesis_rows(synthesis, v, count, rows, row_depths);
+        if (!file || row_depths) synthesis_rows(synthesis, v, count, rows, row_depths);
         if (file) read_rows(file, path, v, count, rows);
         made.seconds += clock_seconds() - begun;
         field_texture_write(&made.texture, v, count, rows);
         if (made.texels) memcpy(made.texels + row * (size_t)v, rows, row * (size_t)count);
         for (int i = 0; i < count; i++) {
             add_plain(&plain, field, v + i, rows + row * (size_t)i);
-            add_depths(&depths, field, v + i, row_depths + row_texels * (size_t)i);
+            if (row_depths) add_depths(&depths, field, v + i, row_depths + row_texels * (size_t)i);
         }
         say_progress(recipe, v + count, start, &said);
     }
     made.plain = texture_create(&plain, 1, TEXTURE_SRGB8, TEXTURE_LINEAR);
     texture_mipmap(&made.plain);
-    finish_depths(&made, &depths);
+    if (row_depths) finish_depths(&made, &depths);
     image_destroy(&plain);
     free(row_depths);
     free(rows);
@@ -147,7 +148,7 @@ Made field_make(const Recipe *recipe, const FieldFile *file, const char *path) {
 void field_unmake(Made *made) {
     field_texture_destroy(&made->texture);
     texture_destroy(&made->plain);
-    texture_destroy(&made->depths);
+    if (made->depths.id) texture_destroy(&made->depths);
     free(made->texels);
     *made = (Made){0};
 }

@@ -12,6 +12,7 @@ typedef struct {
     Field field;
     int samples;  /* rays a texel */
     bool through; /* see synthesis.h */
+    bool flat;    /* without depths, which take as long as the light */
 } Recipe;
 
 /* One that is made: on the GPU, and what else was learnt on the way. */

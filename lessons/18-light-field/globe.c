@@ -19,14 +19,14 @@ static const struct {
     const char *name;
     Recipe recipe;
 } scenes[] = {
-    {"composed", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
-    {"effects", {&light_effects, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
-    {"aliasing", {&light_aliasing, {FIELD_SPHERE, SIZE(256, 128, 32, 32)}, SAMPLES_USUAL, false}},
-    {"figure-7", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
-    {"placements", {&light_placements, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, true}},
+    {"composed", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false, false}},
+    {"effects", {&light_effects, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false, false}},
+    {"aliasing", {&light_aliasing, {FIELD_SPHERE, SIZE(256, 128, 32, 32)}, SAMPLES_USUAL, false, false}},
+    {"figure-7", {&light_composed, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false, false}},
+    {"placements", {&light_placements, {FIELD_SPHERE, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, true, false}},
     {"cylinder",
-     {&light_composed, {FIELD_CYLINDER, .height = 6, SIZE(128, 48, 64, 64)}, SAMPLES_USUAL, false}},
-    {"panorama", {&light_around, {FIELD_ROOM, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false}},
+     {&light_composed, {FIELD_CYLINDER, .height = 6, SIZE(128, 48, 64, 64)}, SAMPLES_USUAL, false, false}},
+    {"panorama", {&light_around, {FIELD_ROOM, SIZE(128, 64, 64, 64)}, SAMPLES_USUAL, false, false}},
 };
 
 static const Recipe *recipe_named(const char *name) {
@@ -94,6 +94,7 @@ static Recipe recipe_of(const Globe *globe, Reads reads, double knob) {
     if (globe->path && (reads == READS_USUAL || reads == READS_USUAL_PAGED)) return recipe;
     if (knob > 0.0) recipe.samples = (int)knob;
     Field *field = &recipe.field;
+    recipe.flat = reads != READS_USUAL && reads != READS_USUAL_PAGED && reads != READS_64_32_256_256;
     if (reads == READS_SINE) field->angles = ANGLES_SINE;
     if (reads == READS_STEREOGRAPHIC) field->angles = ANGLES_STEREOGRAPHIC;
     if (reads == READS_PLAIN_LIGHT) recipe.scene = &light_composed;

@@ -40,7 +40,7 @@
 #define FRONT {.name = "front", .camera = AT(0, 0, 9, 1, 0, 46)}
 #define ASIDE {.name = "aside", .camera = AT(6, 3, 6, 1, 0, 46)}
 #define POLE {.name = "pole", .camera = AT(0, 9, 0, 0, -1, 46)}
-#define BACK {.name = "back", .camera = AT(-2.5, -1, -8.5, 1, 0, 46)}
+#define BACK(...) {.name = "back", .camera = AT(-2.5, -1, -8.5, 1, 0, 46), __VA_ARGS__} /* the seam of u */
 #define TOUCHING {.name = "touching", .camera = AT(1.2, 1.5, 3, 1, 0, 70)}
 
 #define GLOBE .colour = "", .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
@@ -52,7 +52,7 @@ static const Lesson lesson = {
         {"composed", "seven solids in a sphere", GLOBE,
          .techniques = {TRILINEAR, FRAMES, NEAREST, SHARED, PAPER, PAPER_FAST, SINE, STEREOGRAPHIC, DEPTH_MEAN,
                         DEPTH_CORRECTED, DIRECT, PAPER_PAGES},
-         .views = {FRONT, ASIDE, POLE, BACK, TOUCHING}, .path = {AT(0, 0, 9, 1, 0, 46), AT(0.6, 0.3, 9, 1, 0, 46)}},
+         .views = {FRONT, ASIDE, POLE, TOUCHING, BACK(.extra = true)}, .path = {AT(0, 0, 9, 1, 0, 46), AT(0.6, 0.3, 9, 1, 0, 46)}},
         {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE,
          .techniques = {{READING("plain-light", "paper", READS_PLAIN_LIGHT, "a light field without them")},
                         PAPER, DEPTH_CORRECTED},
@@ -74,7 +74,7 @@ static const Lesson lesson = {
                    {.name = "between", .camera = {.eye = {1.835, 0, 3.21}, .target = {-1.4, 0, 0.5}, .up = {0, 1, 0},
                                                   .fov_y_degrees = 80, .near = 0.01, .far = 100}}}},
         {"cylinder", "the composed scene on the side of a cylinder", GLOBE,
-         .techniques = {TRILINEAR, PAPER, PAPER_FAST}, .views = {FRONT, BACK}},
+         .techniques = {TRILINEAR, PAPER, PAPER_FAST}, .views = {FRONT, BACK()}},
         {"panorama", "an observer inside, solids outside", GLOBE,
          .techniques = {TRILINEAR, PAPER, PAPER_FAST, DIRECT},
          .views = {{.name = "centre", .camera = {.target = {0, 0, 1}, .up = {0, 1, 0}, .fov_y_degrees = 90, .near = 0.01, .far = 100}},
