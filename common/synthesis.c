@@ -2,8 +2,8 @@
 
 #include "fail.h"
 #include "image.h"
-#include "lanes.h"
 #include "parallel.h"
+#include "solid_lanes.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -23,6 +23,8 @@ struct Synthesis {
     bool through;
     int samples, stride; /* stride: columns of a row in memory */
     Grid *grids;
+    Vec3 axes[LIGHT_SOLIDS][3]; /* the solids' own, in the world */
+    float reach[LIGHT_SOLIDS];  /* from their centres to their farthest points */
     uint8_t bytes[BYTES_TABLE]; /* sRGB of linear light i / 65535 */
 };
 
@@ -89,6 +91,13 @@ static Grid grid_create(const Field *field, int stride, CellPlace place) {
     return grid;
 }
 
+static float reach_of(const Solid *solid) {
+    Vec3 size = solid->size;
+    if (solid->kind == SOLID_SPHERE) return (float)(0.5 * size.x);
+    if (solid->kind == SOLID_CYLINDER) return (float)(0.5 * hypot(size.x, size.y));
+    return (float)(0.5 * vec3_length(size));
+}
+
 Synthesis *synthesis_create(const Field *field, const LightScene *scene, int samples, bool through) {
     if (field_refused(field))
         fail("a light field of %dx%dx%dx%d: %s", field->u, field->v, field->s, field->t,
@@ -103,6 +112,10 @@ Synthesis *synthesis_create(const Field *field, const LightScene *scene, int sam
     synthesis_places(samples, places);
     for (int k = 0; k < samples; k++) synthesis->grids[k] = grid_create(field, synthesis->stride, places[k]);
     free(places);
+    for (int i = 0; i < scene->count; i++) {
+        solid_axes_of(&scene->solids[i], synthesis->axes[i]);
+        synthesis->reach[i] = reach_of(&scene->solids[i]);
+    }
     for (int i = 0; i < BYTES_TABLE; i++) synthesis->bytes[i] = srgb_byte((float)(i / (BYTES_TABLE - 1.0)));
     return synthesis;
 }
@@ -116,14 +129,7 @@ void synthesis_destroy(Synthesis *synthesis) {
 /* ---- A solid in the frame of a block, whose origin is where the rays start ---- */
 
 typedef struct {
-    float x, y, z;
-} Point;
-
-typedef struct {
-    SolidKind kind;
-    Point centre, axis[3], half, colour;                /* axis: the solid's own, as they lie in the frame */
-    Point around[3];                                    /* centre x axis */
-    float along[3];                                     /* centre . axis */
+    NearSolid near;
     int first_row, last_row, first_column, last_column; /* of the rays that may meet it */
 } Local;
 
@@ -132,39 +138,6 @@ typedef struct {
     Point light;
     int first_row, last_row; /* that any ray meets anything in */
 } Stand;
-
-static Point point_in(const FieldFrame *frame, Vec3 v) {
-    return (Point){(float)vec3_dot(v, frame->e_x), (float)vec3_dot(v, frame->e_y),
-                   (float)vec3_dot(v, frame->e_z)};
-}
-
-static float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static Point cross(Point a, Point b) {
-    return (Point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static Point scaled(Point a, float s) { return (Point){a.x * s, a.y * s, a.z * s}; }
-static Point sum(Point a, Point b) { return (Point){a.x + b.x, a.y + b.y, a.z + b.z}; }
-
-/* The solid's own axes in the world, turned about x, y, z in that order. Only their number of turns makes
- * this slow; few solids are turned at all. */
-static void axes_of(const Solid *solid, Vec3 axes[3]) {
-    for (int i = 0; i < 3; i++) {
-        Vec3 p = v3(i == 0, i == 1, i == 2), by = solid->turn_degrees;
-        if (by.x != 0.0) {
-            double s = sin(radians(by.x)), c = cos(radians(by.x));
-            p = v3(p.x, c * p.y - s * p.z, s * p.y + c * p.z);
-        }
-        if (by.y != 0.0) {
-            double s = sin(radians(by.y)), c = cos(radians(by.y));
-            p = v3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
-        }
-        if (by.z != 0.0) {
-            double s = sin(radians(by.z)), c = cos(radians(by.z));
-            p = v3(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
-        }
-        axes[i] = p;
-    }
-}
 
 /* From an angle (radians) to 0..1. */
 static float stored(FieldAngles angles, float a) {
@@ -190,9 +163,10 @@ static void bound(const Synthesis *synthesis, const Grid *grid, float reach, Loc
     const Field *field = synthesis->field;
     const float half_turn = (float)PI, right = (float)(0.5 * PI);
     float low_beta = -right, high_beta = right, low_alpha = -half_turn, high_alpha = half_turn;
-    float distance = sqrtf(dot(local->centre, local->centre));
+    Point centre = local->near.centre;
+    float distance = sqrtf(dot(centre, centre));
     if (distance > reach && !synthesis->through) {
-        Point d = scaled(local->centre, -1.0f / distance);
+        Point d = scaled(centre, -1.0f / distance);
         float sine = reach / distance, gamma = asinf(sine), level = sqrtf(d.x * d.x + d.z * d.z);
         float beta = atan2f(d.y, level);
         low_beta = beta - gamma, high_beta = beta + gamma;
@@ -209,134 +183,19 @@ static void bound(const Synthesis *synthesis, const Grid *grid, float reach, Loc
         local->last_row = local->first_row - 1; /* behind the point */
 }
 
-static float reach_of(const Solid *solid) {
-    Vec3 size = solid->size;
-    if (solid->kind == SOLID_SPHERE) return (float)(0.5 * size.x);
-    if (solid->kind == SOLID_CYLINDER) return (float)(0.5 * hypot(size.x, size.y));
-    return (float)(0.5 * vec3_length(size));
-}
-
 static Stand stand_at(const Synthesis *synthesis, const Grid *grid, const FieldFrame *frame) {
     const LightScene *scene = synthesis->scene;
     Stand stand = {.light = point_in(frame, scene->toward_light), .first_row = synthesis->field->t};
     stand.last_row = -1;
     for (int i = 0; i < scene->count; i++) {
-        const Solid *solid = &scene->solids[i];
         Local *local = &stand.solids[i];
-        local->kind = solid->kind;
-        local->centre = point_in(frame, vec3_sub(solid->centre, frame->at));
-        local->half =
-            (Point){(float)(0.5 * solid->size.x), (float)(0.5 * solid->size.y), (float)(0.5 * solid->size.z)};
-        local->colour = (Point){(float)solid->colour.x, (float)solid->colour.y, (float)solid->colour.z};
-        bound(synthesis, grid, reach_of(solid), local);
+        local->near = near_solid(&scene->solids[i], synthesis->axes[i], frame);
+        bound(synthesis, grid, synthesis->reach[i], local);
         if (local->first_row > local->last_row || local->first_column > local->last_column) continue;
         if (local->first_row < stand.first_row) stand.first_row = local->first_row;
         if (local->last_row > stand.last_row) stand.last_row = local->last_row;
-        if (solid->kind == SOLID_SPHERE) continue;
-        Vec3 axes[3];
-        axes_of(solid, axes);
-        for (int k = 0; k < 3; k++) {
-            local->axis[k] = point_in(frame, axes[k]);
-            local->around[k] = cross(local->centre, local->axis[k]);
-            local->along[k] = dot(local->centre, local->axis[k]);
-        }
     }
     return stand;
-}
-
-/* ---- Eight rays at once: t w, where w = -d ---- */
-
-typedef struct {
-    Floats x, y, z;
-} Points;
-
-typedef struct {
-    Floats t;
-    Points normal;
-    Ints met;
-} Meeting;
-
-#define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
-#define ROOT(a)                                                                                              \
-    __extension__({                                                                                          \
-        Floats a_ = (a), b_;                                                                                 \
-        for (int k_ = 0; k_ < LANES; k_++) b_[k_] = __builtin_sqrtf(a_[k_]);                                 \
-        b_;                                                                                                  \
-    })
-/* `of` with the sign of `by`. */
-#define SIGNED(of, by) ((Floats)((Ints)ALL(of) | ((Ints)(by)&INT32_MIN)))
-
-INLINE void meet_sphere(const Local *local, const Points *way, float start, Meeting *meeting) {
-    const Points w = *way;
-    Floats passing = DOT(w, local->centre); /* where the ray passes the centre, and by how much */
-    Points off = {passing * w.x - local->centre.x, passing * w.y - local->centre.y,
-                  passing * w.z - local->centre.z};
-    float radius = local->half.x;
-    Floats inside = radius * radius - DOT(off, off), deep = ROOT(GREATEST(inside, ALL(0.0f)));
-    meeting->t = passing - deep;
-    meeting->met = (inside >= 0.0f) & (meeting->t >= start);
-    float scale = 1.0f / radius;
-    meeting->normal =
-        (Points){(off.x - deep * w.x) * scale, (off.y - deep * w.y) * scale, (off.z - deep * w.z) * scale};
-}
-
-/* Within the round: |t w - c|, without its part along the axis, is the radius. The discriminant is
- * A r^2 - (w . (c x axis))^2, which does not cancel. */
-INLINE void meet_cylinder(const Local *local, const Points *way, float start, Meeting *meeting) {
-    const Points w = *way;
-    Point axis = local->axis[1];
-    float radius = local->half.x, along = local->along[1];
-    Floats w_along = DOT(w, axis), a = GREATEST(1.0f - w_along * w_along, ALL(1e-20f));
-    Floats b = DOT(w, local->centre) - w_along * along, c = DOT(w, local->around[1]);
-    Floats inside = a * (radius * radius) - c * c, root = ROOT(GREATEST(inside, ALL(0.0f)));
-    Floats side = SIGNED(local->half.y, w_along);
-    Floats enter = (b - root) / a, leave = (b + root) / a;
-    Floats near = (along - side) / w_along, far = (along + side) / w_along;
-    Ints flat = near > enter;
-    meeting->t = PICK(flat, near, enter);
-    meeting->met = (inside >= 0.0f) & (meeting->t <= leave) & (meeting->t <= far) & (meeting->t >= start);
-    Floats up = -SIGNED(1.0f, w_along);
-    float scale = 1.0f / radius;
-    Points at = {meeting->t * w.x - local->centre.x, meeting->t * w.y - local->centre.y,
-                 meeting->t * w.z - local->centre.z};
-    Floats at_along = DOT(at, axis);
-    meeting->normal = (Points){PICK(flat, up * axis.x, (at.x - at_along * axis.x) * scale),
-                               PICK(flat, up * axis.y, (at.y - at_along * axis.y) * scale),
-                               PICK(flat, up * axis.z, (at.z - at_along * axis.z) * scale)};
-}
-
-INLINE void meet_box(const Local *local, const Points *way, float start, Meeting *meeting) {
-    const Points w = *way;
-    const float halves[3] = {local->half.x, local->half.y, local->half.z};
-    meeting->t = ALL(-INFINITY);
-    meeting->normal = (Points){{0}, {0}, {0}};
-    Floats leave = ALL(INFINITY);
-    for (int k = 0; k < 3; k++) {
-        Point axis = local->axis[k];
-        Floats w_along = DOT(w, axis), side = SIGNED(halves[k], w_along), up = -SIGNED(1.0f, w_along);
-        Floats near = (local->along[k] - side) / w_along, far = (local->along[k] + side) / w_along;
-        Ints later = near > meeting->t;
-        meeting->t = PICK(later, near, meeting->t);
-        leave = LEAST(leave, far);
-        meeting->normal =
-            (Points){PICK(later, up * axis.x, meeting->normal.x), PICK(later, up * axis.y, meeting->normal.y),
-                     PICK(later, up * axis.z, meeting->normal.z)};
-    }
-    meeting->met = (meeting->t <= leave) & (meeting->t >= start);
-}
-
-/* What light_scene.h says of a surface's light, for solids that nothing shades. */
-INLINE void shade(Point colour, Point light, const Meeting *meeting, const Points *way, Points *shaded) {
-    const Points normal = meeting->normal, w = *way;
-    Floats facing = DOT(normal, light), zero = ALL(0.0f);
-    Floats mirrored = DOT(w, light) - 2.0f * facing * DOT(normal, w); /* R.V with V = -w */
-    Floats shine = GREATEST(mirrored, zero);
-    shine *= shine, shine *= shine, shine *= shine, shine *= shine, shine *= shine; /* ^32 */
-    Ints lit = facing > 0.0f;
-    Floats diffuse = (float)LIGHT_AMBIENT + (float)LIGHT_DIFFUSE * PICK(lit, facing, zero);
-    Floats highlight = (float)LIGHT_SPECULAR * PICK(lit, shine, zero);
-    *shaded = (Points){colour.x * diffuse + highlight, colour.y * diffuse + highlight,
-                       colour.z * diffuse + highlight};
 }
 
 /* One sample of all texels of a block: the light, and how far away it comes from (NOTHING: from nowhere). */
@@ -361,11 +220,11 @@ INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand
             Points w = {-cosine * sin_alpha, ALL(-sine), -cosine * cos_alpha};
             Meeting meeting;
             if (kind == SOLID_SPHERE)
-                meet_sphere(local, &w, start, &meeting);
+                meet_sphere(&local->near, &w, start, &meeting);
             else if (kind == SOLID_CYLINDER)
-                meet_cylinder(local, &w, start, &meeting);
+                meet_cylinder(&local->near, &w, start, &meeting);
             else
-                meet_box(local, &w, start, &meeting);
+                meet_box(&local->near, &w, start, &meeting);
             size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
             LOAD(depth, plane->depth + at);
             Ints nearer = meeting.met & (meeting.t < depth);
@@ -373,7 +232,7 @@ INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand
             depth = PICK(nearer, meeting.t, depth);
             STORE(depth, plane->depth + at);
             Points light;
-            shade(local->colour, stand->light, &meeting, &w, &light);
+            shade(local->near.colour, stand->light, &meeting, &w, &light);
             const Floats channels[3] = {light.x, light.y, light.z};
             for (int k = 0; k < 3; k++) {
                 Floats before;
@@ -392,7 +251,7 @@ INLINE void cast_solid(const Synthesis *synthesis, const Grid *grid, const Stand
 
 WIDE static void cast_block(const Synthesis *synthesis, const Grid *grid, const Stand *stand, Plane *plane) {
     for (int i = 0; i < synthesis->scene->count; i++) {
-        SolidKind kind = stand->solids[i].kind;
+        SolidKind kind = stand->solids[i].near.kind;
         if (kind == SOLID_SPHERE) cast_solid(synthesis, grid, stand, i, plane, SOLID_SPHERE);
         if (kind == SOLID_CYLINDER) cast_solid(synthesis, grid, stand, i, plane, SOLID_CYLINDER);
         if (kind == SOLID_BOX) cast_solid(synthesis, grid, stand, i, plane, SOLID_BOX);
@@ -416,40 +275,40 @@ static bool between(float at, float way, float half, float *enter, float *leave,
     return *enter <= *leave;
 }
 
-static bool meet_one(const Local *local, Point origin, Point way, float *t, Point *normal) {
-    Point from = sum(origin, scaled(local->centre, -1.0f));
-    if (local->kind == SOLID_SPHERE) {
+static bool meet_one(const NearSolid *solid, Point origin, Point way, float *t, Point *normal) {
+    Point from = sum(origin, scaled(solid->centre, -1.0f));
+    if (solid->kind == SOLID_SPHERE) {
         float passing = -dot(from, way);
         Point off = sum(from, scaled(way, passing));
-        float inside = local->half.x * local->half.x - dot(off, off);
+        float inside = solid->half.x * solid->half.x - dot(off, off);
         if (inside < 0.0f) return false;
         *t = passing - sqrtf(inside);
-        *normal = scaled(sum(from, scaled(way, *t)), 1.0f / local->half.x);
+        *normal = scaled(sum(from, scaled(way, *t)), 1.0f / solid->half.x);
         return *t > 0.0f;
     }
-    const float halves[3] = {local->half.x, local->half.y, local->half.z};
+    const float halves[3] = {solid->half.x, solid->half.y, solid->half.z};
     float enter = -INFINITY, leave = INFINITY;
     int side = 1;
     bool entered;
-    if (local->kind == SOLID_CYLINDER) {
-        float along = dot(from, local->axis[1]), w_along = dot(way, local->axis[1]);
-        Point at = sum(from, scaled(local->axis[1], -along));
-        Point w = sum(way, scaled(local->axis[1], -w_along));
-        float a = fmaxf(dot(w, w), 1e-20f), b = dot(at, w), c = dot(local->axis[1], cross(at, w));
-        float inside = a * local->half.x * local->half.x - c * c;
+    if (solid->kind == SOLID_CYLINDER) {
+        float along = dot(from, solid->axis[1]), w_along = dot(way, solid->axis[1]);
+        Point at = sum(from, scaled(solid->axis[1], -along));
+        Point w = sum(way, scaled(solid->axis[1], -w_along));
+        float a = fmaxf(dot(w, w), 1e-20f), b = dot(at, w), c = dot(solid->axis[1], cross(at, w));
+        float inside = a * solid->half.x * solid->half.x - c * c;
         if (inside < 0.0f) return false;
         enter = (-b - sqrtf(inside)) / a, leave = (-b + sqrtf(inside)) / a;
-        if (!between(along, w_along, local->half.y, &enter, &leave, &entered)) return false;
-        *normal = scaled(sum(at, scaled(w, enter)), 1.0f / local->half.x);
-        if (entered) *normal = scaled(local->axis[1], -copysignf(1.0f, w_along));
+        if (!between(along, w_along, solid->half.y, &enter, &leave, &entered)) return false;
+        *normal = scaled(sum(at, scaled(w, enter)), 1.0f / solid->half.x);
+        if (entered) *normal = scaled(solid->axis[1], -copysignf(1.0f, w_along));
     } else {
         for (int k = 0; k < 3; k++) {
-            float w_along = dot(way, local->axis[k]);
-            if (!between(dot(from, local->axis[k]), w_along, halves[k], &enter, &leave, &entered))
+            float w_along = dot(way, solid->axis[k]);
+            if (!between(dot(from, solid->axis[k]), w_along, halves[k], &enter, &leave, &entered))
                 return false;
             if (entered) side = k;
         }
-        *normal = scaled(local->axis[side], -copysignf(1.0f, dot(way, local->axis[side])));
+        *normal = scaled(solid->axis[side], -copysignf(1.0f, dot(way, solid->axis[side])));
     }
     *t = enter;
     return enter > 0.0f;
@@ -460,7 +319,7 @@ static Single meet_first(const Synthesis *synthesis, const Stand *stand, int but
     for (int i = 0; i < synthesis->scene->count; i++) {
         float t;
         Point normal;
-        if (i != but && meet_one(&stand->solids[i], origin, way, &t, &normal) && t < first.t)
+        if (i != but && meet_one(&stand->solids[i].near, origin, way, &t, &normal) && t < first.t)
             first = (Single){t, normal, i};
     }
     return first;
@@ -469,10 +328,10 @@ static Single meet_first(const Synthesis *synthesis, const Stand *stand, int but
 static Point light_of(const Synthesis *synthesis, const Stand *stand, Single met, Point origin, Point way,
                       bool mirrors) {
     const LightScene *scene = synthesis->scene;
-    Point at = sum(origin, scaled(way, met.t)), colour = stand->solids[met.index].colour, unused;
+    Point at = sum(origin, scaled(way, met.t)), colour = stand->solids[met.index].near.colour, unused;
     float facing = dot(met.normal, stand->light), reaching = 1.0f, t;
     for (int i = 0; i < scene->count && facing > 0.0f; i++)
-        if (i != met.index && meet_one(&stand->solids[i], at, stand->light, &t, &unused))
+        if (i != met.index && meet_one(&stand->solids[i].near, at, stand->light, &t, &unused))
             reaching *= (float)scene->clear[i];
     if (facing <= 0.0f) reaching = 0.0f;
     float shine = fmaxf(dot(way, stand->light) - 2.0f * facing * dot(met.normal, way), 0.0f);
@@ -505,7 +364,7 @@ static void add_effects(const Synthesis *synthesis, const Grid *grid, const Stan
             Point origin = {0, 0, 0};
             Single met = {.t = plane->depth[at], .index = plane->index[at]};
             float t;
-            meet_one(&stand->solids[met.index], origin, way, &t, &met.normal);
+            meet_one(&stand->solids[met.index].near, origin, way, &t, &met.normal);
             Point light = light_of(synthesis, stand, met, origin, way, true);
             plane->light[0][at] = light.x, plane->light[1][at] = light.y, plane->light[2][at] = light.z;
         }
@@ -602,24 +461,40 @@ static Rows sum_block(const Synthesis *synthesis, Work *work, int u, int v) {
     return rows;
 }
 
-static uint8_t byte_of(const Synthesis *synthesis, float light) {
-    return synthesis->bytes[(int)(fminf(light, 1.0f) * (BYTES_TABLE - 1) + 0.5f)];
+/* Rows first to last of a block: what nothing was met at has the sum 0, and so becomes black. */
+WIDE static void write_rows(const Synthesis *synthesis, const Work *work, Rows rows, uint8_t *texels) {
+    const int width = synthesis->field->s;
+    const float share = 1.0f / (float)synthesis->samples;
+    for (int row = rows.first; row <= rows.last; row++)
+        for (int column = 0; column < width; column += LANES) {
+            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
+            Ints hits, index[3];
+            LOAD(hits, work->hits + at);
+            if (!ANY(hits)) continue;
+            for (int k = 0; k < 3; k++) {
+                Floats light;
+                LOAD(light, work->sums.light[k] + at);
+                index[k] = INTS_OF(LEAST(light * share, ALL(1.0f)) * (BYTES_TABLE - 1) + 0.5f);
+            }
+            uint8_t *to = texels + FIELD_TEXEL * ((size_t)row * (size_t)width + (size_t)column);
+            int count = width - column < LANES ? width - column : LANES;
+            for (int i = 0; i < count; i++)
+                for (int k = 0; k < 3; k++) *to++ = synthesis->bytes[index[k][i]];
+        }
 }
 
 static void write_block(const Synthesis *synthesis, const Work *work, Rows rows, uint8_t *texels,
                         float *depths) {
     const Field *field = synthesis->field;
-    float share = 1.0f / (float)synthesis->samples;
     memset(texels, 0, field_block(field));
-    for (int i = 0; depths && i < field->s * field->t; i++) depths[i] = INFINITY;
+    write_rows(synthesis, work, rows, texels);
+    if (!depths) return;
+    for (int i = 0; i < field->s * field->t; i++) depths[i] = INFINITY;
     for (int row = rows.first; row <= rows.last; row++)
         for (int column = 0; column < field->s; column++) {
-            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column,
-                   to = (size_t)row * (size_t)field->s + (size_t)column;
-            if (!work->hits[at]) continue;
-            for (int k = 0; k < 3; k++)
-                texels[3 * to + (size_t)k] = byte_of(synthesis, work->sums.light[k][at] * share);
-            if (depths) depths[to] = work->sums.depth[at] / (float)work->hits[at];
+            size_t at = (size_t)row * (size_t)synthesis->stride + (size_t)column;
+            if (work->hits[at])
+                depths[row * field->s + column] = work->sums.depth[at] / (float)work->hits[at];
         }
 }
 
