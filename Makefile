@@ -33,7 +33,7 @@ help: ## list these commands
 # ---- The library ----
 
 COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c))
-RAYS_OBJECTS := $(B)/obj/common/mesh_rays.c.o
+RAYS_OBJECTS := $(patsubst %,$(B)/obj/common/%.c.o,mesh_rays embree_field)
 LIBRARIES := $(B)/libtexel.so $(B)/libtexel-files.so $(B)/libtexel-rays.so
 
 $(B)/obj/%.c.o: %.c
