@@ -141,6 +141,10 @@ INLINE void meet_box(const NearSolid *solid, const Points *way, float start, Mee
     meeting->met = (meeting->t <= leave) & (meeting->t >= start);
 }
 
+/* A surface faces the light if N.L is more than rounding: the sides of a box along the light are at exactly 0,
+ * where a highlight would begin at once, and turned into the frame of a block they are at +-1e-7. */
+static const float FACING_LEAST = 1e-6f;
+
 /* What light_scene.h says of a surface's light, for solids that nothing shades. */
 INLINE void shade(Point colour, Point light, const Meeting *meeting, const Points *way, Points *shaded) {
     const Points normal = meeting->normal, w = *way;
@@ -148,7 +152,7 @@ INLINE void shade(Point colour, Point light, const Meeting *meeting, const Point
     Floats mirrored = DOT(w, light) - 2.0f * facing * DOT(normal, w); /* R.V with V = -w */
     Floats shine = GREATEST(mirrored, zero);
     shine *= shine, shine *= shine, shine *= shine, shine *= shine, shine *= shine; /* ^32 */
-    Ints lit = facing > 0.0f;
+    Ints lit = facing > FACING_LEAST;
     Floats diffuse = (float)LIGHT_AMBIENT + (float)LIGHT_DIFFUSE * PICK(lit, facing, zero);
     Floats highlight = (float)LIGHT_SPECULAR * PICK(lit, shine, zero);
     *shaded = (Points){colour.x * diffuse + highlight, colour.y * diffuse + highlight,

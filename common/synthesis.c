@@ -330,10 +330,10 @@ static Point light_of(const Synthesis *synthesis, const Stand *stand, Single met
     const LightScene *scene = synthesis->scene;
     Point at = sum(origin, scaled(way, met.t)), colour = stand->solids[met.index].near.colour, unused;
     float facing = dot(met.normal, stand->light), reaching = 1.0f, t;
-    for (int i = 0; i < scene->count && facing > 0.0f; i++)
+    for (int i = 0; i < scene->count && facing > FACING_LEAST; i++)
         if (i != met.index && meet_one(&stand->solids[i].near, at, stand->light, &t, &unused))
             reaching *= (float)scene->clear[i];
-    if (facing <= 0.0f) reaching = 0.0f;
+    if (facing <= FACING_LEAST) reaching = 0.0f;
     float shine = fmaxf(dot(way, stand->light) - 2.0f * facing * dot(met.normal, way), 0.0f);
     for (int i = 0; i < 5; i++) shine *= shine; /* ^32 */
     float diffuse = (float)LIGHT_AMBIENT + (float)LIGHT_DIFFUSE * facing * reaching;
