@@ -96,26 +96,35 @@ INLINE void meet_sphere(const NearSolid *solid, const Points *way, float start, 
         (Points){(off.x - deep * w.x) * scale, (off.y - deep * w.y) * scale, (off.z - deep * w.z) * scale};
 }
 
+/* A line and a cylinder's axis whose angle has a sine whose square is less count as parallel: where the line
+ * enters the round is then lost in rounding, and it can meet only the end. */
+static const float PARALLEL = 1e-6f;
+/* By how much, of the square of the radius, a met point may lie outside the round for rounding. */
+static const float ROUND_ROOM = 1e-3f;
+
 /* Within the round: |t w - c|, without its part along the axis, is the radius. The discriminant is
  * A r^2 - (w . (c x axis))^2, which does not cancel. */
 INLINE void meet_cylinder(const NearSolid *solid, const Points *way, float start, Meeting *meeting) {
     const Points w = *way;
     Point axis = solid->axis[1];
     float radius = solid->half.x, along = solid->along[1];
-    Floats w_along = DOT(w, axis), a = GREATEST(1.0f - w_along * w_along, ALL(1e-20f));
+    Floats w_along = DOT(w, axis), a = 1.0f - w_along * w_along;
     Floats b = DOT(w, solid->centre) - w_along * along, c = DOT(w, solid->around[1]);
+    Ints parallel = a < PARALLEL;
     Floats inside = a * (radius * radius) - c * c, root = ROOT(GREATEST(inside, ALL(0.0f)));
     Floats side = SIGNED(solid->half.y, w_along);
-    Floats enter = (b - root) / a, leave = (b + root) / a;
+    Floats enter = PICK(parallel, ALL(-INFINITY), (b - root) / a);
+    Floats leave = PICK(parallel, ALL(INFINITY), (b + root) / a);
     Floats near = (along - side) / w_along, far = (along + side) / w_along;
     Ints flat = near > enter;
     meeting->t = PICK(flat, near, enter);
-    meeting->met = (inside >= 0.0f) & (meeting->t <= leave) & (meeting->t <= far) & (meeting->t >= start);
-    Floats up = -SIGNED(1.0f, w_along);
-    float scale = 1.0f / radius;
     Points at = {meeting->t * w.x - solid->centre.x, meeting->t * w.y - solid->centre.y,
                  meeting->t * w.z - solid->centre.z};
-    Floats at_along = DOT(at, axis);
+    Floats at_along = DOT(at, axis), out = DOT(at, at) - at_along * at_along;
+    meeting->met = ((inside >= 0.0f) | parallel) & (meeting->t <= leave) & (meeting->t <= far) &
+                   (meeting->t >= start) & (out <= radius * radius * (1.0f + ROUND_ROOM));
+    Floats up = -SIGNED(1.0f, w_along);
+    float scale = 1.0f / radius;
     meeting->normal = (Points){PICK(flat, up * axis.x, (at.x - at_along * axis.x) * scale),
                                PICK(flat, up * axis.y, (at.y - at_along * axis.y) * scale),
                                PICK(flat, up * axis.z, (at.z - at_along * axis.z) * scale)};
@@ -141,8 +150,8 @@ INLINE void meet_box(const NearSolid *solid, const Points *way, float start, Mee
     meeting->met = (meeting->t <= leave) & (meeting->t >= start);
 }
 
-/* A surface faces the light if N.L is more than rounding: the sides of a box along the light are at exactly 0,
- * where a highlight would begin at once, and turned into the frame of a block they are at +-1e-7. */
+/* A surface faces the light if N.L is more than rounding: the sides of a box along the light are at exactly
+ * 0, where a highlight would begin at once, and turned into the frame of a block they are at +-1e-7. */
 static const float FACING_LEAST = 1e-6f;
 
 /* What light_scene.h says of a surface's light, for solids that nothing shades. */

@@ -294,13 +294,18 @@ static bool meet_one(const NearSolid *solid, Point origin, Point way, float *t, 
         float along = dot(from, solid->axis[1]), w_along = dot(way, solid->axis[1]);
         Point at = sum(from, scaled(solid->axis[1], -along));
         Point w = sum(way, scaled(solid->axis[1], -w_along));
-        float a = fmaxf(dot(w, w), 1e-20f), b = dot(at, w), c = dot(solid->axis[1], cross(at, w));
-        float inside = a * solid->half.x * solid->half.x - c * c;
-        if (inside < 0.0f) return false;
-        enter = (-b - sqrtf(inside)) / a, leave = (-b + sqrtf(inside)) / a;
+        float a = dot(w, w), b = dot(at, w), c = dot(solid->axis[1], cross(at, w)), square = solid->half.x;
+        square *= square;
+        if (a >= PARALLEL) {
+            float inside = a * square - c * c;
+            if (inside < 0.0f) return false;
+            enter = (-b - sqrtf(inside)) / a, leave = (-b + sqrtf(inside)) / a;
+        }
         if (!between(along, w_along, solid->half.y, &enter, &leave, &entered)) return false;
-        *normal = scaled(sum(at, scaled(w, enter)), 1.0f / solid->half.x);
-        if (entered) *normal = scaled(solid->axis[1], -copysignf(1.0f, w_along));
+        Point out = sum(at, scaled(w, enter));
+        if (dot(out, out) > square * (1.0f + ROUND_ROOM)) return false;
+        *normal =
+            entered ? scaled(solid->axis[1], -copysignf(1.0f, w_along)) : scaled(out, 1.0f / solid->half.x);
     } else {
         for (int k = 0; k < 3; k++) {
             float w_along = dot(way, solid->axis[k]);
@@ -527,11 +532,24 @@ void synthesis_rows(const Synthesis *synthesis, int first, int rows, uint8_t *te
     parallel_for(rows * per_row, make_blocks, &job);
 }
 
+static void light_at(const Synthesis *synthesis, const Work *work, Rows rows, int s, int t, float *light) {
+    size_t at = (size_t)t * (size_t)synthesis->stride + (size_t)s;
+    bool any = t >= rows.first && t <= rows.last;
+    for (int k = 0; k < 3; k++) light[k] = any ? work->sums.light[k][at] / (float)synthesis->samples : 0.0f;
+}
+
+void synthesis_block(const Synthesis *synthesis, int u, int v, float *light) {
+    const Field *field = synthesis->field;
+    Work work = work_create(synthesis);
+    Rows rows = sum_block(synthesis, &work, u, v);
+    for (int t = 0; t < field->t; t++)
+        for (int s = 0; s < field->s; s++, light += 3) light_at(synthesis, &work, rows, s, t, light);
+    free(work.memory);
+}
+
 void synthesis_texel(const Synthesis *synthesis, int u, int v, int s, int t, float *light) {
     Work work = work_create(synthesis);
     Rows rows = sum_block(synthesis, &work, u, v);
-    size_t at = (size_t)t * (size_t)synthesis->stride + (size_t)s;
-    bool any = t >= rows.first && t <= rows.last;
-    for (int k = 0; k < 3; k++) light[k] = any ? work.sums.light[k][at] / (float)synthesis->samples : 0.0f;
+    light_at(synthesis, &work, rows, s, t, light);
     free(work.memory);
 }

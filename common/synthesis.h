@@ -35,7 +35,10 @@ void synthesis_places(int samples, CellPlace *places);
  * distance of what its rays met, INFINITY where that is nothing. */
 void synthesis_rows(const Synthesis *synthesis, int first, int rows, uint8_t *texels, float *depths);
 
-/* The linear light of one texel alone, three numbers. */
+/* The linear light of all texels of one block, in their order, three numbers each: on this core alone. */
+void synthesis_block(const Synthesis *synthesis, int u, int v, float *light);
+
+/* The linear light of one texel alone, three numbers. (It takes as long as its block.) */
 void synthesis_texel(const Synthesis *synthesis, int u, int v, int s, int t, float *light);
 
 #endif

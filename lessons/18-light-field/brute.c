@@ -57,18 +57,23 @@ static float meet_ball(const NearSolid *solid, Point w, float nearest) {
 }
 
 static float meet_can(const NearSolid *solid, Point w, float nearest, int *face) {
-    float up = dot(w, solid->axis[1]), a = 1.0f - up * up, radius = solid->half.x;
-    float c = dot(w, solid->around[1]), inside = a * radius * radius - c * c;
-    if (inside < 0.0f) return nearest;
-    float b = dot(w, solid->centre) - up * solid->along[1], root = sqrtf(inside),
-          per = 1.0f / fmaxf(a, 1e-20f);
-    float enter = (b - root) * per, leave = (b + root) * per;
-    if (enter >= nearest || leave < 0.0f) return nearest;
+    float up = dot(w, solid->axis[1]), a = 1.0f - up * up, square = solid->half.x * solid->half.x;
+    float c = dot(w, solid->around[1]), inside = a * square - c * c;
+    float enter = -INFINITY, leave = INFINITY;
+    if (a >= PARALLEL) {
+        if (inside < 0.0f) return nearest;
+        float b = dot(w, solid->centre) - up * solid->along[1], root = sqrtf(inside), per = 1.0f / a;
+        enter = (b - root) * per, leave = (b + root) * per;
+        if (enter >= nearest || leave < 0.0f) return nearest;
+    }
     float per_up = 1.0f / up, side = copysignf(solid->half.y, up);
     float near = (solid->along[1] - side) * per_up, far = (solid->along[1] + side) * per_up;
     bool flat = near > enter;
     float t = flat ? near : enter;
     if (!(t <= leave && t <= far && t >= 0.0f && t < nearest)) return nearest;
+    Point at = sum(scaled(w, t), scaled(solid->centre, -1.0f));
+    float at_along = dot(at, solid->axis[1]);
+    if (dot(at, at) - at_along * at_along > square * (1.0f + ROUND_ROOM)) return nearest;
     *face = flat ? 1 : ROUND;
     return t;
 }
