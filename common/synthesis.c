@@ -386,7 +386,8 @@ typedef struct {
 
 static Work work_create(const Synthesis *synthesis) {
     size_t count = (size_t)synthesis->stride * (size_t)synthesis->field->t;
-    float *next = allocate(10 * count, sizeof(float));
+    float *next = malloc(10 * count * sizeof(float)); /* not cleared, which costs: what is read was written */
+    if (!next) fail("out of memory: %zu directions of a light field", count);
     Work work = {.memory = next};
     for (int i = 0; i < 3; i++) work.plane.light[i] = next, next += count;
     for (int i = 0; i < 3; i++) work.sums.light[i] = next, next += count;

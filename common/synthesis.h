@@ -3,7 +3,11 @@
  * All rays of a block start at one point, and their directions are a grid of angles in its frame: so a solid
  * is met by a rectangle of that grid, and only that is tried, eight rays at a time. (Nine of ten rays of the
  * composed scene meet nothing.) Several rays a texel are spread over its cell of all four dimensions, each in
- * the frame of its own (u, v): each is one more block, seen from a point a part of a texel away. */
+ * the frame of its own (u, v): each is one more block, seen from a point a part of a texel away.
+ *
+ * Rays a second, wherever they are told, count the rays of all texels, those that meet nothing too: not to
+ * try them is what makes this fast. Writing the texels takes a small part of the time; the rest is
+ * arithmetic. */
 #ifndef TEXEL_SYNTHESIS_H
 #define TEXEL_SYNTHESIS_H
 
