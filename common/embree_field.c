@@ -367,7 +367,8 @@ WIDE static void rays_aim(Chunk *chunk, int packet, const EmbreeField *embree, c
 static const int packet_of[EMBREE_WAYS] = {1, 4, 8, 16, 1, PACKET, CHUNK};
 
 static void trace(const EmbreeField *embree, EmbreeWay way, Query *query, Chunk *chunk, int count) {
-    static const _Alignas(64) int all[PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    static const _Alignas(64) int all[PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                 -1, -1, -1, -1, -1, -1, -1, -1};
     struct RTCIntersectContext *context = &query->context;
     const int packet = packet_of[way];
     float *rays = chunk->rays;
