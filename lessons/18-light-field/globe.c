@@ -175,6 +175,9 @@ Sample globe_truth(const void *data, Ray ray) {
 
 void globe_measure(const Shots *shots, Table *table) {
     Globe *globe = shots->frame->data;
+    const char *scene = shots->frame->scene->name, *technique = shots->frame->technique->name;
+    if (!strcmp(scene, "composed") && !strcmp(technique, "paper"))
+        judge_rates(shots, table, &globe->usual.field, globe->usual.scene);
     if (shots->frame->technique->variant == READS_NOTHING) return;
     judge_field(shots, table, made_for(globe, shots->frame));
 }

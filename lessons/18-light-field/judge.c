@@ -1,6 +1,11 @@
 #include "judge.h"
 
+#include "fail.h"
 #include "image.h"
+#include "rates.h"
+#include "sampling.h"
+
+#include <stdlib.h>
 
 /* ---- The sixteen taps in doubles ---- */
 
@@ -56,11 +61,48 @@ static double off_taps(const Shots *shots, const Shot *shot, const Made *made) {
     return 255.0 * largest;
 }
 
+/* ---- How it was made ---- */
+
+enum { SAMPLES_MANY = 2401, SAMPLED_TEXELS = 100000, RATE_ROUNDS = 5 };
+
+/* The rays a texel that it was made with, against 7^4. */
+static void judge_samples(const Shots *shots, Table *table, const Made *made) {
+    if (!shots_want(shots, NULL, "samples_rms") && !shots_want(shots, NULL, "samples_rms_codes")) return;
+    const Recipe *recipe = &made->recipe;
+    SamplingNoise noise = sampling_noise(&recipe->field, recipe->scene, recipe->through, recipe->samples,
+                                         SAMPLES_MANY, SAMPLED_TEXELS);
+    table_add(table, shots, NULL, "samples_rms", noise.linear, "linear");
+    table_add(table, shots, NULL, "samples_rms_seeing", noise.linear_seeing, "linear");
+    table_add(table, shots, NULL, "samples_rms_codes", noise.codes, "codes");
+    table_add(table, shots, NULL, "samples_rms_codes_seeing", noise.codes_seeing, "codes");
+}
+
+void judge_rates(const Shots *shots, Table *table, const Field *field, const LightScene *scene) {
+    if (!shots_want(shots, NULL, "rays_per_second") && !shots_want(shots, NULL, "brute_ratio") &&
+        !shots_want(shots, NULL, "embree_ratio"))
+        return;
+    Field small = *field;
+    small.u = 64, small.v = small.s = small.t = 32;
+    Rates rates = rates_measure(&small, scene, RATE_ROUNDS);
+    table_add(table, shots, NULL, "rays_per_second", rates.rays_per_second, "1/s");
+    table_add(table, shots, NULL, "brute_rays_per_second", rates.brute_rays_per_second, "1/s");
+    table_add(table, shots, NULL, "brute_ratio", rates.brute_ratio, "1");
+    table_add(table, shots, NULL, "embree_ratio", rates.embree_ratio, "1");
+    static const char *const kinds[2] = {"embree_solids", "embree_meshes"};
+    for (int k = 0; k < 2; k++)
+        for (int way = 0; way < EMBREE_WAYS; way++) {
+            char *metric = text("%s_%s_rays_per_second", kinds[k], embree_way_names[way]);
+            table_add(table, shots, NULL, metric, rates.embree_rays_per_second[k][way], "1/s");
+            free(metric);
+        }
+}
+
 void judge_field(const Shots *shots, Table *table, const Made *made) {
     if (shots_want(shots, NULL, "bytes"))
         table_add(table, shots, NULL, "bytes", (double)field_texture_bytes(&made->texture), "bytes");
     if (shots_want(shots, NULL, "synthesis_seconds"))
         table_add(table, shots, NULL, "synthesis_seconds", made->seconds, "s");
+    if (shots->frame->knob > 0.0) judge_samples(shots, table, made);
     for (int i = 0; i < shots->count && made->texels; i++)
         if (shots_want(shots, shots->shots[i].view, "off_taps_max_255"))
             table_add(table, shots, shots->shots[i].view, "off_taps_max_255",

@@ -37,13 +37,16 @@ Struck strike_cylinder(Struck so_far, sampler2D solids, int row, vec3 origin, ve
     vec3 from = origin - solid_number(solids, 1, row);
     float at = dot(from, axis), along = dot(way, axis);
     vec3 level = from - at * axis, across = way - along * axis;
-    float a = max(dot(across, across), 1e-12), b = dot(level, across), c = dot(axis, cross(level, across));
+    float a = dot(across, across), b = dot(level, across), c = dot(axis, cross(level, across));
     float inside = a * half_size.x * half_size.x - c * c;
+    bool parallel = a < 1e-12; // to the axis: then only the ends count, if the ray is between the sides at all
+    if (parallel) inside = half_size.x * half_size.x - dot(level, level);
     if (inside < 0.0) return so_far;
-    vec2 round = vec2(-b - sqrt(inside), -b + sqrt(inside)) / a, ends = layer(at, along, half_size.y);
-    float enter = max(round.x, ends.x), leave = min(round.y, ends.y);
+    vec2 sides = parallel ? vec2(-1e30, 1e30) : vec2(-b - sqrt(inside), -b + sqrt(inside)) / a;
+    vec2 ends = layer(at, along, half_size.y);
+    float enter = max(sides.x, ends.x), leave = min(sides.y, ends.y);
     if (!(enter <= leave)) return so_far;
-    vec3 normal = ends.x > round.x ? -sign(along) * axis : (level + enter * across) / half_size.x;
+    vec3 normal = ends.x > sides.x ? -sign(along) * axis : (level + enter * across) / half_size.x;
     return nearer(so_far, enter, normal, solid_number(solids, 5, row));
 }
 
