@@ -104,7 +104,7 @@ for my $lesson (@lessons) {
     my $stem     = "$folder/$lesson$phase";
     my @expected = rows("lessons/$lesson/expect.csv");
     ok(@expected > 0, "$lesson/expect.csv expects something");
-    @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio|scatter_ratio)/) } @expected if $phase;
+    @expected = grep { ($phase eq '--costs') == ($_->{metric} =~ /^(ns_per_pixel|cost_ratio|scatter_ratio|brute_ratio|embree_ratio)/) } @expected if $phase;
     if (@expected) {
         my %values = measure($lesson, $stem, @expected);
         # What else the machine does may be in a time, once; what is in it three times is the program's.
