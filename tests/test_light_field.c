@@ -10,7 +10,8 @@
 #include "random.h" /* behind cmocka.h */
 
 static const Field sphere = {.model = FIELD_SPHERE, .radius = 3.5, .u = 12, .v = 9, .s = 8, .t = 11};
-static const Field can = {.model = FIELD_CYLINDER, .radius = 1.5, .height = 4, .u = 10, .v = 9, .s = 8, .t = 11};
+static const Field can = {
+    .model = FIELD_CYLINDER, .radius = 1.5, .height = 4, .u = 10, .v = 9, .s = 8, .t = 11};
 static const Field room = {.model = FIELD_ROOM, .radius = 2.5, .u = 14, .v = 8, .s = 13, .t = 8};
 static const Field *const models[] = {&sphere, &can, &room};
 
@@ -42,12 +43,13 @@ static void test_poles(void **state) {
     for (int m = 0; m < 3; m += 2)
         for (int v = 0; v < 2; v++)
             for (double u = 0; u < 1; u += 0.125) {
-                FieldFrame at = field_frame(models[m], u, v), by = field_frame(models[m], u, v ? 1 - 1e-7 : 1e-7);
+                FieldFrame at = field_frame(models[m], u, v),
+                           by = field_frame(models[m], u, v ? 1 - 1e-7 : 1e-7);
                 near_vector(at.e_x, by.e_x, 1e-6), near_vector(at.e_y, by.e_y, 1e-6);
                 near_vector(at.e_z, by.e_z, 1e-6);
             }
     near_vector(field_frame(&sphere, 0.5, 1).at, v3(0, 3.5, 0), 1e-12);
-    near_vector(field_frame(&sphere, 0.5, 0.5).at, v3(0, 0, 3.5), 1e-12); /* theta from +z ... */
+    near_vector(field_frame(&sphere, 0.5, 0.5).at, v3(0, 0, 3.5), 1e-12);  /* theta from +z ... */
     near_vector(field_frame(&sphere, 0.75, 0.5).at, v3(3.5, 0, 0), 1e-12); /* ... toward +x */
     near_vector(field_frame(&can, 0.5, 1).at, v3(0, 2, 1.5), 1e-12);
     Vec2 pole = field_place(&sphere, v3(0, 2, 0));
@@ -126,7 +128,8 @@ static void test_cells(void **state) {
                 assert_true(cell.weight[k] >= 0);
                 double x = floor(u * field->u - 0.5) + (k & 1), y = floor(v * field->v - 0.5) + (k >> 1);
                 if (field->model == FIELD_CYLINDER) y = clamp(y, 0, field->v - 1);
-                Vec3 stored = field_frame(field, (cell.u[k] + 0.5) / field->u, (cell.v[k] + 0.5) / field->v).at;
+                Vec3 stored =
+                    field_frame(field, (cell.u[k] + 0.5) / field->u, (cell.v[k] + 0.5) / field->v).at;
                 double theta = 2 * PI * (x + 0.5) / field->u - PI, phi = PI * (y + 0.5) / field->v - PI / 2;
                 Vec3 centre = v3(cos(phi) * sin(theta), sin(phi), cos(phi) * cos(theta));
                 centre = vec3_scale(centre, field->radius);
@@ -134,7 +137,8 @@ static void test_cells(void **state) {
                     centre = v3(field->radius * sin(theta), field->height * ((y + 0.5) / field->v - 0.5),
                                 field->radius * cos(theta));
                 near_vector(stored, centre, 1e-12);
-                sum += cell.weight[k], mean_u += cell.weight[k] * (x + 0.5), mean_v += cell.weight[k] * (y + 0.5);
+                sum += cell.weight[k], mean_u += cell.weight[k] * (x + 0.5),
+                    mean_v += cell.weight[k] * (y + 0.5);
             }
             near(sum, 1, 1e-12), near(mean_u, u * field->u, 1e-9);
             if (field->model != FIELD_CYLINDER) near(mean_v, v * field->v, 1e-9);
@@ -173,9 +177,9 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frames),  cmocka_unit_test(test_poles), cmocka_unit_test(test_places),
+        cmocka_unit_test(test_frames),     cmocka_unit_test(test_poles),   cmocka_unit_test(test_places),
         cmocka_unit_test(test_directions), cmocka_unit_test(test_horizon), cmocka_unit_test(test_cells),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_memory),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("light_field", tests, NULL, NULL);

@@ -70,7 +70,8 @@ static Vec2 equation_5(const Field *field, Vec3 p, Vec3 d) {
 
 /* Four taps in a block. */
 static Vec3 angular_taps(const Field *field, const uint8_t *texels, int u, int v, Vec2 st) {
-    double x = clamp(st.x * field->s - 0.5, 0, field->s - 1), y = clamp(st.y * field->t - 0.5, 0, field->t - 1);
+    double x = clamp(st.x * field->s - 0.5, 0, field->s - 1),
+           y = clamp(st.y * field->t - 0.5, 0, field->t - 1);
     int s = (int)fmin(x, field->s - 2), t = (int)fmin(y, field->t - 2);
     Vec3 sum = {0, 0, 0};
     for (int i = 0; i < 4; i++) {
@@ -80,7 +81,8 @@ static Vec3 angular_taps(const Field *field, const uint8_t *texels, int u, int v
             texels + 3 * ((((size_t)v * (size_t)field->u + (size_t)u) * (size_t)field->t + (size_t)ti) *
                               (size_t)field->s +
                           (size_t)si);
-        sum = vec3_add(sum, vec3_scale(v3(linear_light(c[0]), linear_light(c[1]), linear_light(c[2])), weight));
+        sum =
+            vec3_add(sum, vec3_scale(v3(linear_light(c[0]), linear_light(c[1]), linear_light(c[2])), weight));
     }
     return sum;
 }
@@ -98,7 +100,8 @@ static Vec3 sixteen_in_doubles(const Field *field, const uint8_t *texels, Vec3 p
         Vec3 centre = point_at(field, (column + 0.5) / field->u, (row + 0.5) / field->v);
         Vec2 own = equation_3(field, centre);
         int u = (int)floor(own.x * field->u) % field->u, v = (int)floor(own.y * field->v);
-        sum = vec3_add(sum, vec3_scale(angular_taps(field, texels, u, v, equation_5(field, centre, d)), weight));
+        sum = vec3_add(sum,
+                       vec3_scale(angular_taps(field, texels, u, v, equation_5(field, centre, d)), weight));
     }
     return sum;
 }
@@ -169,8 +172,13 @@ static FieldTexture upload(const Field *field, const uint8_t *texels) {
 }
 
 static Camera looking(Vec3 eye, Vec3 target, double fov) {
-    return (Camera){.eye = eye, .target = target, .up = {0.31, 0.9, 0.17}, .fov_y_degrees = fov, .height = 2.2,
-                    .near = 0.01, .far = 100};
+    return (Camera){.eye = eye,
+                    .target = target,
+                    .up = {0.31, 0.9, 0.17},
+                    .fov_y_degrees = fov,
+                    .height = 2.2,
+                    .near = 0.01,
+                    .far = 100};
 }
 
 /* Hard cameras first, then random ones; radius is the model's. */
@@ -186,17 +194,17 @@ static Camera camera_number(int i, const Field *field) {
     Camera flat = looking(v3(2 * r, r, -2 * r), v3(0, 0, 0), 0);
     flat.height = 2.2 * r;
     switch (i) {
-    case 0: return looking(v3(0, 4 * r, 0), v3(0, 0, 0), 30);                   /* over a pole */
-    case 1: return looking(v3(0, -4 * r, 0), v3(0, 0, 0), 30);                  /* under one */
-    case 2: return looking(v3(0, 0, -4 * r), v3(0, 0, 0), 30);                  /* at the seam */
-    case 3: return looking(v3(0.9 * r, 0, -0.9 * r), v3(-r, 0, -r), 70);        /* grazing the seam */
+    case 0: return looking(v3(0, 4 * r, 0), v3(0, 0, 0), 30);                  /* over a pole */
+    case 1: return looking(v3(0, -4 * r, 0), v3(0, 0, 0), 30);                 /* under one */
+    case 2: return looking(v3(0, 0, -4 * r), v3(0, 0, 0), 30);                 /* at the seam */
+    case 3: return looking(v3(0.9 * r, 0, -0.9 * r), v3(-r, 0, -r), 70);       /* grazing the seam */
     case 4: return looking(v3(0, 1.05 * r, 0.1 * r), v3(0.3 * r, r, -r), 100); /* close to a pole, grazing */
-    case 5: return looking(v3(0, 0, 1.02 * r), v3(0, 0, 0), 100);               /* near */
-    case 6: return looking(v3(70 * r, 30 * r, 20 * r), v3(0, 0, 0), 1.6);       /* far */
-    case 7: return flat;                                                        /* orthographic */
+    case 5: return looking(v3(0, 0, 1.02 * r), v3(0, 0, 0), 100);              /* near */
+    case 6: return looking(v3(70 * r, 30 * r, 20 * r), v3(0, 0, 0), 1.6);      /* far */
+    case 7: return flat;                                                       /* orthographic */
     }
-    return looking(vec3_scale(random_direction(), r * random_in(1.3, 5)), vec3_scale(random_vector(-0.6, 0.6), r),
-                   random_in(15, 80));
+    return looking(vec3_scale(random_direction(), r * random_in(1.3, 5)),
+                   vec3_scale(random_vector(-0.6, 0.6), r), random_in(15, 80));
 }
 
 static const Field fields[] = {
@@ -258,8 +266,8 @@ static void check_scale(FieldAngles angles, const char *fragment) {
     }
     picture_destroy(&picture);
     program_destroy(&program);
-    print_message("%s: %ld pixels, at most %.4f/255 in linear light, %.4f codes of sRGB\n", fragment, apart.pixels,
-                  apart.linear, apart.srgb);
+    print_message("%s: %ld pixels, at most %.4f/255 in linear light, %.4f codes of sRGB\n", fragment,
+                  apart.pixels, apart.linear, apart.srgb);
     assert_true(apart.pixels > 50000);
     assert_true(apart.linear <= 1 && apart.srgb <= 1);
 }
@@ -283,10 +291,10 @@ static void compare_pictures(Apart *apart, const Picture *a, const Picture *b) {
 
 /* paper-fast.frag asks OpenGL for a place at (block + at) / size, which is rounded by 2^-24 of itself four
  * times (sum, quotient, the sampler's product, minus a half): on an axis of n texels the place is off by at
- * most n 2^-22 texels, and neighbours differ by at most 1. Hardware may round the part between two texels to 8
- * bits besides: by up to 2^-8 where it truncates. Over two axes that is 255 (n 2^-22 + 2^-8) each: 2/255 for the
- * weights, and as much again only for pages of 16384 texels. OSMesa mixes in floats, so that the weights' share
- * is 0 here, and is held to the places alone. */
+ * most n 2^-22 texels, and neighbours differ by at most 1. Hardware may round the part between two texels to
+ * 8 bits besides: by up to 2^-8 where it truncates. Over two axes that is 255 (n 2^-22 + 2^-8) each: 2/255
+ * for the weights, and as much again only for pages of 16384 texels. OSMesa mixes in floats, so that the
+ * weights' share is 0 here, and is held to the places alone. */
 static void test_fast(void **state) {
     (void)state;
     Program paper = build("paper.frag"), fast = build("paper-fast.frag");
@@ -311,7 +319,8 @@ static void test_fast(void **state) {
         field_texture_destroy(&texture);
         free(texels);
     }
-    print_message("paper-fast.frag: at most %.4f/255 in linear light, %.4f codes of sRGB\n", all.linear, all.srgb);
+    print_message("paper-fast.frag: at most %.4f/255 in linear light, %.4f codes of sRGB\n", all.linear,
+                  all.srgb);
     assert_true(all.linear <= 2 && all.srgb <= 2);
     picture_destroy(&a), picture_destroy(&b);
     program_destroy(&paper), program_destroy(&fast);
@@ -352,10 +361,10 @@ static void test_pages(void **state) {
 }
 
 /* One block in grey, all others white. Seen from where it fills the middle of the picture, with each end of s
- * and t reached, the pixel nearest to its centre must be that grey but for the share of its neighbours in space:
- * with one of them black, too, nothing comes from across a border. Here: all blocks alike but for their
- * outermost texels' neighbours would not tell; so each block is one colour, and what is seen must be a mix by
- * spatial weights alone, whatever the direction. */
+ * and t reached, the pixel nearest to its centre must be that grey but for the share of its neighbours in
+ * space: with one of them black, too, nothing comes from across a border. Here: all blocks alike but for
+ * their outermost texels' neighbours would not tell; so each block is one colour, and what is seen must be a
+ * mix by spatial weights alone, whatever the direction. */
 static void test_borders(void **state) {
     (void)state;
     Field field = {.model = FIELD_SPHERE, .radius = 1, .u = 12, .v = 10, .s = 8, .t = 9};
@@ -384,8 +393,8 @@ static void test_borders(void **state) {
                 compare_to_doubles(&apart, &field, texels, &camera, &picture);
                 if (apart.linear > 0.05) fail_msg("%s reads across a border: %g", fragments[k], apart.linear);
                 Vec2 st = equation_5(&field, centre, vec3_normalize(vec3_sub(eye, centre)));
-                clamped[0] += st.x < 0.5 / field.s, clamped[1] += st.x > 1 - 0.5 / field.s;
-                clamped[2] += st.y < 0.5 / field.t, clamped[3] += st.y > 1 - 0.5 / field.t;
+                clamped[0] += st.x<0.5 / field.s, clamped[1] += st.x> 1 - 0.5 / field.s;
+                clamped[2] += st.y<0.5 / field.t, clamped[3] += st.y> 1 - 0.5 / field.t;
             }
             field_texture_destroy(&texture);
         }
