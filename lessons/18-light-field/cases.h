@@ -120,11 +120,11 @@ CASE("next to 90 degrees", 8 * 0x1p-24, "", linear_angles(vec4(1.0), vec4(0.0), 
 CASE("t next to 90 degrees", 8 * 0x1p-24, "", linear_angles(vec4(0.0009765625, 0.000244140625, 0.0001220703125, 6.103515625e-05), vec4(1.0), vec4(0.0)).t)
 
 // The same by arc sines, whose argument p is off by 4 u: near 90 degrees that is an angle of sqrt(2 * 4 u), and
-// s is off by sqrt(8 u) / pi = 2.2e-4, where the arc tangent's is by 5e-7. OSMesa's asin is a polynomial that is
-// off by 5e-4 more.
-CASE("arc sine next to 90 degrees", 2.2e-4 + 5e-4, "", arcsine_angles(vec4(1.0), vec4(0.0), vec4(0.0009765625, 0.000244140625, 0.0001220703125, 6.103515625e-05)).s)
-CASE("arc sine t next to 90 degrees", 2.2e-4 + 5e-4, "", arcsine_angles(vec4(0.0009765625, 0.000244140625, 0.0001220703125, 6.103515625e-05), vec4(0.9999995, 0.99999994, 1.0, 1.0), vec4(0.0)).t)
-CASE_EQUALS("arc sine behind the horizon: folded back", 5e-4, "", vec4(0.75, 0.25, 0.75, 0.25),
+// s is off by sqrt(8 u) / pi = 2.2e-4, where the arc tangent's is by 5e-7. OSMesa's asin is a polynomial
+// that is off by up to 1e-4 more (empirical: 2.4e-5 of s at 45 degrees).
+CASE("arc sine next to 90 degrees", 2.2e-4 + 1e-4, "", arcsine_angles(vec4(1.0), vec4(0.0), vec4(0.0009765625, 0.000244140625, 0.0001220703125, 6.103515625e-05)).s)
+CASE("arc sine t next to 90 degrees", 2.2e-4 + 1e-4, "", arcsine_angles(vec4(0.0009765625, 0.000244140625, 0.0001220703125, 6.103515625e-05), vec4(0.9999995, 0.99999994, 1.0, 1.0), vec4(0.0)).t)
+CASE_EQUALS("arc sine behind the horizon: folded back", 1e-4, "", vec4(0.75, 0.25, 0.75, 0.25),
             arcsine_angles(vec4(0.5, -0.5, 1.0, -1.0), vec4(0.0), vec4(-0.5, -0.5, -1.0, -1.0)).s)
 
 // The other scales: 4 u.
