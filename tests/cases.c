@@ -46,10 +46,10 @@ static void find_folders(const char *inside) {
 
 static const char *file_name(const char *path) { return strrchr(path, '/') + 1; }
 
-/* The lesson's technique files, in alphabetical order; globfree frees them. */
-static glob_t technique_files(void) {
+/* A folder's technique files, in alphabetical order; globfree frees them. */
+static glob_t technique_files(const char *inside) {
     glob_t files;
-    char *pattern = text("%s/*.glsl", folder);
+    char *pattern = text("%s/*.glsl", inside);
     if (glob(pattern, 0, NULL, &files) != 0) fail("no %s", pattern);
     free(pattern);
     return files;
@@ -105,10 +105,13 @@ static char *shader_text(int first, int end, Numbers *numbers) {
           "vec4 case_value(ivec3 v) { return vec4(vec3(v), 0.0); }\n"
           "vec4 case_value(ivec4 v) { return vec4(v); }\n",
           out);
-    glob_t files = technique_files();
-    for (size_t i = 0; i < files.gl_pathc; i++)
-        fprintf(out, "#include \"%s\"\n", file_name(files.gl_pathv[i]));
-    globfree(&files);
+    const char *const folders[] = {common, folder}; /* as techniques.h in cases.mk */
+    for (int k = 0; k < 2; k++) {
+        glob_t files = technique_files(folders[k]);
+        for (size_t i = 0; i < files.gl_pathc; i++)
+            fprintf(out, "#include \"%s\"\n", file_name(files.gl_pathv[i]));
+        globfree(&files);
+    }
     for (int i = 0; i < line_count; i++) {
         if (in_double[i].texture)
             fprintf(out, "uniform sampler2D %s;\n", in_double[i].name);
@@ -240,7 +243,7 @@ static bool judge_case(int number, const Case *same_in_float) {
 /* Whether each function of the technique files has a case: definitions begin in a line's first column. */
 static bool judge_coverage(void) {
     bool good = true;
-    glob_t files = technique_files();
+    glob_t files = technique_files(folder);
     for (size_t i = 0; i < files.gl_pathc; i++) {
         FILE *file = fopen(files.gl_pathv[i], "r");
         if (!file) fail("%s cannot be read", files.gl_pathv[i]);

@@ -50,6 +50,8 @@
 #include <limits>
 #include <type_traits>
 
+#undef PI /* vec.h's: a technique file may have a constant of that name */
+
 using Texel = float; /* float also where the next lines change the word */
 
 /* Each precision has a namespace of its own, for both are linked into one program. */

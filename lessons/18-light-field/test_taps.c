@@ -1,0 +1,415 @@
+/* The pictures of paper.frag and its relatives as OSMesa draws them, against the sixteen taps in doubles from
+ * the paper's own equations: frames by cross products, angles by Eq. 5, and none of common/light_field.c. The
+ * fields hold random bytes, the hardest content: neighbours differ by as much as they can. */
+#include "context.h"
+#include "draw.h"
+#include "fail.h"
+#include "field_draw.h"
+#include "stage.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tests/random.h" /* behind cmocka.h */
+
+enum { SIDE = 64 }; /* of a picture, in pixels */
+
+/* ---- The paper's equations ---- */
+
+static double degrees(double a) { return a * (180.0 / PI); }
+
+static double linear_light(uint8_t code) {
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double srgb_code(double light) {
+    double c = light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+    return 255.0 * c;
+}
+
+/* Eq. 3, in degrees; on the cylinder v is the height. */
+static Vec2 equation_3(const Field *field, Vec3 p) {
+    double u = (degrees(atan2(p.x, p.z)) + 180.0) / 360.0;
+    if (field->model == FIELD_CYLINDER) return v2(u, p.y / field->height + 0.5);
+    return v2(u, (degrees(asin(clamp(p.y / vec3_length(p), -1, 1))) + 90.0) / 180.0);
+}
+
+/* The point whose (u, v) that is. Where v is beyond 0..1 the meridian goes on over the pole. */
+static Vec3 point_at(const Field *field, double u, double v) {
+    double theta = radians(360.0 * u - 180.0), phi = radians(180.0 * v - 90.0);
+    if (field->model == FIELD_CYLINDER)
+        return v3(field->radius * sin(theta), field->height * (v - 0.5), field->radius * cos(theta));
+    return vec3_scale(v3(cos(phi) * sin(theta), sin(phi), cos(phi) * cos(theta)), field->radius);
+}
+
+/* Eq. 4. */
+static void equation_4(const Field *field, Vec3 p, Vec3 *x, Vec3 *y, Vec3 *z) {
+    *z = vec3_normalize(field->model == FIELD_CYLINDER ? v3(p.x, 0, p.z) : p);
+    if (field->model == FIELD_ROOM) *z = vec3_scale(*z, -1);
+    *x = vec3_normalize(vec3_cross(v3(0, 1, 0), *z));
+    *y = vec3_cross(*z, *x);
+}
+
+/* Eq. 5, each arc sine as the arc tangent that it equals; then the scale, named by the arc's end. */
+static Vec2 equation_5(const Field *field, Vec3 p, Vec3 d) {
+    Vec3 x, y, z;
+    equation_4(field, p, &x, &y, &z);
+    double a = degrees(atan2(vec3_dot(x, d), vec3_dot(z, d)));
+    double b = degrees(atan2(vec3_dot(y, d), hypot(vec3_dot(x, d), vec3_dot(z, d))));
+    if (field->angles == ANGLES_LINEAR) return v2((a + 90) / 180, (b + 90) / 180);
+    a = clamp(a, -90, 90);
+    if (field->angles == ANGLES_SINE) return v2((sin(radians(a)) + 1) / 2, (sin(radians(b)) + 1) / 2);
+    return v2((tan(radians(a) / 2) + 1) / 2, (tan(radians(b) / 2) + 1) / 2);
+}
+
+/* Four taps in a block. */
+static Vec3 angular_taps(const Field *field, const uint8_t *texels, int u, int v, Vec2 st) {
+    double x = clamp(st.x * field->s - 0.5, 0, field->s - 1),
+           y = clamp(st.y * field->t - 0.5, 0, field->t - 1);
+    int s = (int)fmin(x, field->s - 2), t = (int)fmin(y, field->t - 2);
+    Vec3 sum = {0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        int si = s + (i & 1), ti = t + (i >> 1);
+        double weight = (i & 1 ? x - s : 1 - (x - s)) * (i >> 1 ? y - t : 1 - (y - t));
+        const uint8_t *c =
+            texels + 3 * ((((size_t)v * (size_t)field->u + (size_t)u) * (size_t)field->t + (size_t)ti) *
+                              (size_t)field->s +
+                          (size_t)si);
+        sum =
+            vec3_add(sum, vec3_scale(v3(linear_light(c[0]), linear_light(c[1]), linear_light(c[2])), weight));
+    }
+    return sum;
+}
+
+/* The neighbours of a point are texels of the plane (u, v); which one each is, and where it lies, is asked of
+ * the geometry: the point is made first, and is given its own (u, v) by Eq. 3. */
+static Vec3 sixteen_in_doubles(const Field *field, const uint8_t *texels, Vec3 p, Vec3 d) {
+    Vec2 uv = equation_3(field, p);
+    double x = uv.x * field->u - 0.5, y = uv.y * field->v - 0.5;
+    Vec3 sum = {0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        double column = floor(x) + (i & 1), row = floor(y) + (i >> 1);
+        double weight = (1 - fabs(x - column)) * (1 - fabs(y - row));
+        if (field->model == FIELD_CYLINDER) row = clamp(row, 0, field->v - 1);
+        Vec3 centre = point_at(field, (column + 0.5) / field->u, (row + 0.5) / field->v);
+        Vec2 own = equation_3(field, centre);
+        int u = (int)floor(own.x * field->u) % field->u, v = (int)floor(own.y * field->v);
+        sum = vec3_add(sum,
+                       vec3_scale(angular_taps(field, texels, u, v, equation_5(field, centre, d)), weight));
+    }
+    return sum;
+}
+
+/* Where a ray meets the model; false where it does not, or almost does not: within a thousandth of the radius
+ * of the outline, float and double may disagree on whether it does. */
+static bool meet(const Field *field, Ray ray, Vec3 *p) {
+    Vec3 o = ray.origin, d = ray.direction, flat = {1, field->model == FIELD_CYLINDER ? 0 : 1, 1};
+    Vec3 of = vec3_multiply(o, flat), df = vec3_multiply(d, flat);
+    double a = vec3_dot(df, df), b = vec3_dot(of, df);
+    double inside = b * b - a * (vec3_dot(of, of) - field->radius * field->radius);
+    if (!(inside > 1e-3 * a * field->radius * field->radius)) return false;
+    double depth = (-b + (field->model == FIELD_ROOM ? 1 : -1) * sqrt(inside)) / a;
+    *p = ray_at(ray, depth);
+    return depth > 0 && (field->model != FIELD_CYLINDER || fabs(p->y) < 0.4999 * field->height);
+}
+
+/* ---- Drawing ---- */
+
+static char *folder, *common;
+static Context *context;
+
+static int start(void **state) {
+    (void)state;
+    context = context_offscreen();
+    folder = project_path("lessons/18-light-field"), common = project_path("common");
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    free(folder), free(common);
+    context_destroy(context);
+    return 0;
+}
+
+static Program build(const char *fragment) {
+    Program program = {0};
+    char *log = program_build(&program, folder, common, "everywhere.vert", fragment, GLSL_330);
+    if (log) fail_msg("%s: %s", fragment, log);
+    return program;
+}
+
+static void draw(Program *program, const FieldTexture *texture, const Camera *camera, Picture *picture) {
+    Frame frame = {.program = program, .camera = *camera, .width = SIDE, .height = SIDE};
+    Target target = target_create(SIDE, SIDE, true);
+    target_begin(&target, (Vec3){0});
+    program_use(program);
+    program_vector(program, "size", SIDE, SIDE, 0, 0);
+    field_uniforms(&frame, &texture->field);
+    field_texture_bind(program, texture);
+    draw_everywhere();
+    target_read(&target, picture);
+    draw_check("test_taps");
+    target_destroy(&target);
+}
+
+static uint8_t *random_texels(const Field *field) {
+    uint8_t *texels = allocate(field_bytes(field), 1);
+    for (size_t i = 0; i < field_bytes(field); i++) texels[i] = (uint8_t)random_in(0, 256);
+    return texels;
+}
+
+static FieldTexture upload(const Field *field, const uint8_t *texels) {
+    FieldTexture texture = field_texture_create(field);
+    field_texture_write(&texture, 0, field->v, texels);
+    return texture;
+}
+
+static Camera looking(Vec3 eye, Vec3 target, double fov) {
+    return (Camera){.eye = eye,
+                    .target = target,
+                    .up = {0.31, 0.9, 0.17},
+                    .fov_y_degrees = fov,
+                    .height = 2.2,
+                    .near = 0.01,
+                    .far = 100};
+}
+
+/* Hard cameras first, then random ones; radius is the model's. */
+enum { HARD = 8, CAMERAS = 14 };
+static Camera camera_number(int i, const Field *field) {
+    double r = field->radius;
+    if (field->model == FIELD_ROOM) {
+        Vec3 eye = vec3_scale(random_vector(-0.5, 0.5), r);
+        const Vec3 toward[] = {{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}};
+        if (i == 0) eye = v3(0, 0, 0);
+        return looking(eye, vec3_add(eye, i < 4 ? toward[i] : random_direction()), random_in(50, 110));
+    }
+    Camera flat = looking(v3(2 * r, r, -2 * r), v3(0, 0, 0), 0);
+    flat.height = 2.2 * r;
+    switch (i) {
+    case 0: return looking(v3(0, 4 * r, 0), v3(0, 0, 0), 30);                  /* over a pole */
+    case 1: return looking(v3(0, -4 * r, 0), v3(0, 0, 0), 30);                 /* under one */
+    case 2: return looking(v3(0, 0, -4 * r), v3(0, 0, 0), 30);                 /* at the seam */
+    case 3: return looking(v3(0.9 * r, 0, -0.9 * r), v3(-r, 0, -r), 70);       /* grazing the seam */
+    case 4: return looking(v3(0, 1.05 * r, 0.1 * r), v3(0.3 * r, r, -r), 100); /* close to a pole, grazing */
+    case 5: return looking(v3(0, 0, 1.02 * r), v3(0, 0, 0), 100);              /* near */
+    case 6: return looking(v3(70 * r, 30 * r, 20 * r), v3(0, 0, 0), 1.6);      /* far */
+    case 7: return flat;                                                       /* orthographic */
+    }
+    return looking(vec3_scale(random_direction(), r * random_in(1.3, 5)),
+                   vec3_scale(random_vector(-0.6, 0.6), r), random_in(15, 80));
+}
+
+static const Field fields[] = {
+    {.model = FIELD_SPHERE, .radius = 3.5, .u = 10, .v = 9, .s = 9, .t = 11},
+    {.model = FIELD_SPHERE, .radius = 1, .u = 8, .v = 8, .s = 8, .t = 8},
+    {.model = FIELD_SPHERE, .radius = 3.5, .u = 64, .v = 32, .s = 16, .t = 24},
+    {.model = FIELD_SPHERE, .radius = 0.7, .u = 22, .v = 13, .s = 64, .t = 33},
+    {.model = FIELD_CYLINDER, .radius = 1.5, .height = 2.5, .u = 20, .v = 11, .s = 13, .t = 8},
+    {.model = FIELD_ROOM, .radius = 2.5, .u = 26, .v = 15, .s = 12, .t = 17},
+};
+enum { FIELDS = sizeof fields / sizeof *fields };
+
+/* ---- Comparing ---- */
+
+typedef struct {
+    double linear, srgb; /* largest differences, in 255ths */
+    long pixels;
+} Apart;
+
+static void compare(Apart *apart, const double *expected, const float *got) {
+    for (int c = 0; c < 3; c++) {
+        apart->linear = fmax(apart->linear, 255.0 * fabs(got[c] - expected[c]));
+        apart->srgb = fmax(apart->srgb, fabs(srgb_code(got[c]) - srgb_code(expected[c])));
+    }
+    apart->pixels++;
+}
+
+/* A picture of a program against the double-precision taps. */
+static void compare_to_doubles(Apart *apart, const Field *field, const uint8_t *texels, const Camera *camera,
+                               const Picture *picture) {
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            Vec3 p;
+            Ray ray = camera_ray(camera, SIDE, SIDE, x + 0.5, y + 0.5);
+            if (!meet(field, ray, &p)) continue;
+            Vec3 light = sixteen_in_doubles(field, texels, p, vec3_scale(ray.direction, -1));
+            compare(apart, (double[]){light.x, light.y, light.z}, image_at(&picture->colour, x, y));
+            if (image_at(&picture->lookup, x, y)[3] != 1.0f) fail_msg("a pixel was left out");
+        }
+}
+
+static void check_scale(FieldAngles angles, const char *fragment) {
+    Program program = build(fragment);
+    Picture picture = picture_create(SIDE, SIDE, true);
+    Apart apart = {0};
+    for (int f = 0; f < FIELDS; f++) {
+        Field field = fields[f];
+        field.angles = angles;
+        assert_null(field_refused(&field));
+        uint8_t *texels = random_texels(&field);
+        FieldTexture texture = upload(&field, texels);
+        for (int i = 0; i < CAMERAS; i++) {
+            Camera camera = camera_number(i, &field);
+            draw(&program, &texture, &camera, &picture);
+            compare_to_doubles(&apart, &field, texels, &camera, &picture);
+        }
+        field_texture_destroy(&texture);
+        free(texels);
+    }
+    picture_destroy(&picture);
+    program_destroy(&program);
+    print_message("%s: %ld pixels, at most %.4f/255 in linear light, %.4f codes of sRGB\n", fragment,
+                  apart.pixels, apart.linear, apart.srgb);
+    assert_true(apart.pixels > 50000);
+    assert_true(apart.linear <= 1 && apart.srgb <= 1);
+}
+
+static void test_paper(void **state) { (void)state, check_scale(ANGLES_LINEAR, "paper.frag"); }
+static void test_sine(void **state) { (void)state, check_scale(ANGLES_SINE, "sine.frag"); }
+static void test_stereographic(void **state) {
+    (void)state, check_scale(ANGLES_STEREOGRAPHIC, "stereographic.frag");
+}
+
+/* ---- Two programs that must show the same ---- */
+
+static void compare_pictures(Apart *apart, const Picture *a, const Picture *b) {
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            const float *e = image_at(&a->colour, x, y);
+            compare(apart, (double[]){e[0], e[1], e[2]}, image_at(&b->colour, x, y));
+            assert_true(image_at(&a->lookup, x, y)[3] == image_at(&b->lookup, x, y)[3]);
+        }
+}
+
+/* paper-fast.frag asks OpenGL for a place at (block + at) / size, which is rounded by 2^-24 of itself four
+ * times (sum, quotient, the sampler's product, minus a half): on an axis of n texels the place is off by at
+ * most n 2^-22 texels, and neighbours differ by at most 1. Hardware may round the part between two texels to
+ * 8 bits besides: by up to 2^-8 where it truncates. Over two axes that is 255 (n 2^-22 + 2^-8) each: 2/255
+ * for the weights, and as much again only for pages of 16384 texels. OSMesa mixes in floats, so that the
+ * weights' share is 0 here, and is held to the places alone. */
+static void test_fast(void **state) {
+    (void)state;
+    Program paper = build("paper.frag"), fast = build("paper-fast.frag");
+    Picture a = picture_create(SIDE, SIDE, true), b = picture_create(SIDE, SIDE, true);
+    Apart all = {0};
+    for (int f = 0; f < FIELDS; f++) {
+        uint8_t *texels = random_texels(&fields[f]);
+        FieldTexture texture = upload(&fields[f], texels);
+        Apart apart = {0};
+        for (int i = 0; i < CAMERAS; i++) {
+            Camera camera = camera_number(i, &fields[f]);
+            draw(&paper, &texture, &camera, &a);
+            draw(&fast, &texture, &camera, &b);
+            compare_pictures(&apart, &a, &b);
+        }
+        double places = 255.0 * (texture.pages[0].width + texture.pages[0].height) * 0x1p-22;
+        double own = 255.0 * 32 * 0x1p-24; /* paper.frag's own mixing: 16 products and sums of at most 1 */
+        if (apart.linear > places + own)
+            fail_msg("%dx%dx%dx%d: %.4f/255 of %.4f", fields[f].u, fields[f].v, fields[f].s, fields[f].t,
+                     apart.linear, places + own);
+        all.linear = fmax(all.linear, apart.linear), all.srgb = fmax(all.srgb, apart.srgb);
+        field_texture_destroy(&texture);
+        free(texels);
+    }
+    print_message("paper-fast.frag: at most %.4f/255 in linear light, %.4f codes of sRGB\n", all.linear,
+                  all.srgb);
+    assert_true(all.linear <= 2 && all.srgb <= 2);
+    picture_destroy(&a), picture_destroy(&b);
+    program_destroy(&paper), program_destroy(&fast);
+}
+
+/* The same field in pages of few blocks, as a large one's, gives the same bits. */
+static void test_pages(void **state) {
+    (void)state;
+    Program paper = build("paper.frag"), paged = build("paper-pages.frag");
+    Picture a = picture_create(SIDE, SIDE, true), b = picture_create(SIDE, SIDE, true);
+    const int cuts[][2] = {{2, 2}, {1, 4}, {4, 1}, {1, 3}, {3, 1}, {1, 1}};
+    Field field = fields[0];
+    uint8_t *texels = random_texels(&field);
+    FieldTexture whole = upload(&field, texels);
+    for (size_t k = 0; k < sizeof cuts / sizeof *cuts; k++) {
+        FieldTexture cut = {.field = field, .columns = (field.u + cuts[k][0] - 1) / cuts[k][0]};
+        cut.rows = (field.v + cuts[k][1] - 1) / cuts[k][1];
+        cut.across = (field.u + cut.columns - 1) / cut.columns;
+        cut.count = cut.across * ((field.v + cut.rows - 1) / cut.rows);
+        for (int i = 0; i < cut.count; i++)
+            cut.pages[i] =
+                texture_empty(cut.columns * field.s, cut.rows * field.t, TEXTURE_SRGBA8, TEXTURE_LINEAR);
+        /* In two parts that end within a page, as the synthesis writes them. */
+        field_texture_write(&cut, 0, 4, texels);
+        field_texture_write(&cut, 4, field.v - 4, texels + 4 * field_row(&field));
+        for (int i = 0; i < CAMERAS; i++) {
+            Camera camera = camera_number(i, &field);
+            draw(&paper, &whole, &camera, &a);
+            draw(&paged, &cut, &camera, &b);
+            assert_memory_equal(a.colour.pixels, b.colour.pixels, (size_t)SIDE * SIDE * 3 * sizeof(float));
+        }
+        field_texture_destroy(&cut);
+    }
+    field_texture_destroy(&whole);
+    free(texels);
+    picture_destroy(&a), picture_destroy(&b);
+    program_destroy(&paper), program_destroy(&paged);
+}
+
+/* One block in grey, all others white. Seen from where it fills the middle of the picture, with each end of s
+ * and t reached, the pixel nearest to its centre must be that grey but for the share of its neighbours in
+ * space: with one of them black, too, nothing comes from across a border. Here: all blocks alike but for
+ * their outermost texels' neighbours would not tell; so each block is one colour, and what is seen must be a
+ * mix by spatial weights alone, whatever the direction. */
+static void test_borders(void **state) {
+    (void)state;
+    Field field = {.model = FIELD_SPHERE, .radius = 1, .u = 12, .v = 10, .s = 8, .t = 9};
+    const char *const fragments[] = {"paper.frag", "paper-fast.frag", "paper-pages.frag"};
+    uint8_t *texels = allocate(field_bytes(&field), 1);
+    Picture picture = picture_create(SIDE, SIDE, true);
+    int clamped[4] = {0};
+    for (int k = 0; k < 3; k++) {
+        Program program = build(fragments[k]);
+        for (int pass = 0; pass < 6; pass++) {
+            int white_u = (int)random_in(0, field.u), white_v = (int)random_in(0, field.v);
+            memset(texels, 0, field_bytes(&field));
+            memset(texels + field_row(&field) * (size_t)white_v + field_block(&field) * (size_t)white_u, 255,
+                   field_block(&field));
+            FieldTexture texture = upload(&field, texels);
+            /* From all sides of the white block, grazing: past each end of s and t. */
+            Vec3 centre = point_at(&field, (white_u + 0.5) / field.u, (white_v + 0.5) / field.v), x, y, z;
+            equation_4(&field, centre, &x, &y, &z);
+            for (int side = 0; side < 8; side++) {
+                double angle = side * PI / 4;
+                Vec3 aside = vec3_add(vec3_scale(x, cos(angle)), vec3_scale(y, sin(angle)));
+                Vec3 eye = vec3_add(centre, vec3_add(vec3_scale(aside, 1.5), vec3_scale(z, 0.12)));
+                Camera camera = looking(eye, centre, 40);
+                draw(&program, &texture, &camera, &picture);
+                Apart apart = {0};
+                compare_to_doubles(&apart, &field, texels, &camera, &picture);
+                if (apart.linear > 0.05) fail_msg("%s reads across a border: %g", fragments[k], apart.linear);
+                Vec2 st = equation_5(&field, centre, vec3_normalize(vec3_sub(eye, centre)));
+                clamped[0] += st.x<0.5 / field.s, clamped[1] += st.x> 1 - 0.5 / field.s;
+                clamped[2] += st.y<0.5 / field.t, clamped[3] += st.y> 1 - 0.5 / field.t;
+            }
+            field_texture_destroy(&texture);
+        }
+        program_destroy(&program);
+    }
+    for (int i = 0; i < 4; i++) assert_true(clamped[i] > 0);
+    picture_destroy(&picture);
+    free(texels);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_paper), cmocka_unit_test(test_sine),  cmocka_unit_test(test_stereographic),
+        cmocka_unit_test(test_fast),  cmocka_unit_test(test_pages), cmocka_unit_test(test_borders),
+    };
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests_name("taps", tests, start, end);
+}
