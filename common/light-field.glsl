@@ -114,7 +114,7 @@ vec3 own_frame(Spot spot, vec3 d, float facing) {
 }
 
 // The texel that holds the spot, four times, with its own frame: `around` with nothing between texels.
-Around nearest(Spot spot, vec3 d, vec4 count, vec2 step_theta, vec2 step_phi, float facing) {
+Around nearest(Spot spot, vec3 d, vec4 count, vec2 step_phi, float facing) {
     vec2 texel = min(floor(spot.uv * vec2(count.xy)), vec2(count.xy) - 1.0);
     vec2 aside = texel + 0.5 - spot.uv * vec2(count.xy);
     vec2 theta = turned(spot.theta, small_turn(aside.x * 2.0 * PI / count.x));

@@ -5,7 +5,7 @@ uniform sampler2D depths;
 
 // What the texel nearest to the spot knows of the depth in the direction d, whatever the length of that.
 float known_depth(Spot spot, vec3 d, float lifted) {
-    Around near = nearest(spot, d, count, steps.xy, steps.zw, -window.z);
+    Around near = nearest(spot, d, count, steps.zw, -window.z);
     Angles angles = linear_angles(near.x, near.y, near.z + lifted);
     ivec2 cells = (ivec2(count.zw) + 3) / 4;
     ivec2 cell = ivec2(among(vec2(angles.s.x, angles.t.x), count.zw) + 0.5) / 4;
