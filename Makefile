@@ -17,7 +17,7 @@ TEXEL_CFLAGS := -std=c17 $(TEXEL_FLAGS)
 TEXEL_CXXFLAGS := -std=c++20 $(TEXEL_FLAGS)
 TEXEL_LIBS = $(shell pkg-config --libs glfw3 osmesa) -lm -pthread -ldl
 LINK_TEXEL = -L$(B) -ltexel -Wl,-rpath,'$$ORIGIN' -lm
-LINK_RAYS = -Wl,--as-needed -ltexel-rays
+LINK_RAYS = -Wl,--as-needed -ltexel-rays $(EMBREE_LIBS)
 EMBREE_LIBS := -lembree3
 
 .DEFAULT_GOAL := all
@@ -33,7 +33,7 @@ help: ## list these commands
 # ---- The library ----
 
 COMMON_OBJECTS := $(patsubst common/%,$(B)/obj/common/%.o,$(wildcard common/*.c))
-RAYS_OBJECTS := $(patsubst %,$(B)/obj/common/%.c.o,mesh_rays embree_field)
+RAYS_OBJECTS := $(B)/obj/common/mesh_rays.c.o
 LIBRARIES := $(B)/libtexel.so $(B)/libtexel-files.so $(B)/libtexel-rays.so
 
 $(B)/obj/%.c.o: %.c

@@ -6,8 +6,8 @@
  * squares or halves of squares of the grid of angles; directions made eight at a time; its best quality of
  * tree; hits gathered and shaded eight at a time; and, as user geometry, callbacks with the same SIMD
  * formulas that synthesis.h has, with all that depends on the origin alone computed once a block. */
-#ifndef TEXEL_EMBREE_FIELD_H
-#define TEXEL_EMBREE_FIELD_H
+#ifndef LESSON_EMBREE_FIELD_H
+#define LESSON_EMBREE_FIELD_H
 
 #include "light_field.h"
 #include "light_scene.h"
