@@ -105,7 +105,8 @@ static double model_depth(const Field *field, Ray ray) {
 
 Sample field_truth(const Field *field, const LightScene *scene, Ray ray) {
     double depth = model_depth(field, ray);
-    if (!(depth >= 0.0)) return (Sample){0};
+    if (!(depth >= -1e-12 * field->radius)) return (Sample){0}; /* an eye on the model sees it */
+    depth = fmax(depth, 0.0);
     SolidHit hit;
     bool met;
     Vec2 place = field_place(field, ray_at(ray, depth));

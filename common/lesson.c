@@ -196,6 +196,11 @@ static void check_choice(const Lesson *lesson, const Options *options, Choice *c
     if (!scene_found) fail_usage("--scene %s: no such scene; --list names them", choice->scene);
     if (!technique_found)
         fail_usage("--technique %s: no such technique; --list names them", choice->technique);
+    if (choice->view && strchr(choice->view, ',') && !choice->custom)
+        fail_usage("--view %s: no camera: expected EX,EY,EZ,TX,TY,TZ,F of finite numbers, a target that is "
+                   "not the eye, "
+                   "an angle between 0 and 180 (or a height, Ho), and an up not along the view",
+                   choice->view);
     if (choice->view && !view_found && !choice->custom)
         fail_usage("--view %s: no such view; --list names them", choice->view);
     if (choice->knob > 0.0 && !knob_found)

@@ -26,7 +26,7 @@ typedef enum {
 typedef enum {
     ANGLES_LINEAR,       /* (a + 90) / 180, the paper's */
     ANGLES_SINE,         /* (sin a + 1) / 2: finer around the normal */
-    ANGLES_STEREOGRAPHIC /* (tan(a/2) + 1) / 2: finer around the normal, but less so */
+    ANGLES_STEREOGRAPHIC /* (tan(a/2) + 1) / 2: coarser around the normal */
 } FieldAngles;
 
 typedef struct {

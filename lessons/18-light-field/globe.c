@@ -59,12 +59,14 @@ static void read_file(Globe *globe, const char *path) {
     field_file_demand(field_file_open(&globe->file, path), path);
     const FieldHeader *header = &globe->file.header;
     Recipe *usual = &globe->usual;
-    FieldHeader own = field_header(&header->field, usual->scene, header->samples, usual->through);
+    const Field *field = &header->field, *own = &usual->field;
+    FieldHeader expected = field_header(field, usual->scene, header->samples, usual->through);
     if (header->codec != FIELD_RAW) fail("%s: is encoded; lesson 19 reads such files", path);
-    if (!field_header_equal(header, &own) || header->field.model != usual->field.model ||
-        header->field.radius != usual->field.radius || header->field.height != usual->field.height)
-        fail("%s: is a light field of %s, not of the scene %s", path, header->scene, usual->scene->name);
-    if (header->field.angles != ANGLES_LINEAR) fail("%s: its angles are not linear", path);
+    if (!field_header_equal(header, &expected))
+        fail("%s: is a light field of %s, not of this scene's %s", path, header->scene, usual->scene->name);
+    if (field->model != own->model || field->radius != own->radius || field->height != own->height)
+        fail("%s: its model is not this scene's (--list says which that is)", path);
+    if (field->angles != ANGLES_LINEAR) fail("%s: its angles are not linear", path);
     globe->path = text("%s", path);
     usual->field = header->field;
     usual->samples = header->samples;
@@ -113,6 +115,9 @@ static bool same(const Recipe *a, const Recipe *b) {
 static const Made *made_for(Globe *globe, const Frame *frame) {
     if (frame->knob > 0.0 && frame->knob != floor(frame->knob))
         fail("%g rays a texel: expected a whole number", frame->knob);
+    if (globe->path && frame->knob > 0.0 && frame->knob != globe->usual.samples)
+        fail("%s: has %d rays a texel, not %g; --knob %d shows it", globe->path, globe->usual.samples,
+             frame->knob, globe->usual.samples);
     Recipe recipe = recipe_of(globe, frame->technique->variant, frame->knob);
     for (int i = 0; i < globe->count; i++)
         if (same(&globe->made[i].recipe, &recipe)) return &globe->made[i];

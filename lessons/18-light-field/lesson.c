@@ -43,21 +43,23 @@
 #define BACK(...) {.name = "back", .camera = AT(-2.5, -1, -8.5, 1, 0, 46), __VA_ARGS__} /* the seam of u */
 #define TOUCHING {.name = "touching", .camera = AT(1.2, 1.5, 3, 1, 0, 70)}
 
-#define GLOBE .colour = "", .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
+#define GLOBE .list = globe_list, .load = globe_load, .unload = globe_unload, .draw = globe_draw, .truth = globe_truth, .measure = globe_measure, .samples = 18
+
+#define FROM_FILE .colour = "" /* --colour FILE: a light field from `make light-field` */
 
 static const Lesson lesson = {
     .name = "18-light-field",
     .title = "light-field textures: the light that leaves a model, by place and by direction",
     .scenes = {
-        {"composed", "seven solids in a sphere", GLOBE,
+        {"composed", "seven solids in a sphere", GLOBE, FROM_FILE,
          .techniques = {TRILINEAR, FRAMES, NEAREST, SHARED, PAPER, PAPER_FAST, SINE, STEREOGRAPHIC, DEPTH_MEAN,
                         DEPTH_CORRECTED, DIRECT, PAPER_PAGES},
          .views = {FRONT, ASIDE, POLE, TOUCHING, BACK(.extra = true)}, .path = {AT(0, 0, 9, 1, 0, 46), AT(0.6, 0.3, 9, 1, 0, 46)}},
-        {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE,
+        {"effects", "the same with shadows, a mirroring ball and a clear box", GLOBE, FROM_FILE,
          .techniques = {{READING("plain-light", "paper", READS_PLAIN_LIGHT, "a light field without them")},
                         PAPER, DEPTH_CORRECTED},
          .views = {FRONT, ASIDE}},
-        {"aliasing", "one cylinder, on the viewer's side of the sphere or on the far one", GLOBE,
+        {"aliasing", "one cylinder, on the viewer's side of the sphere or on the far one", GLOBE, FROM_FILE,
          .techniques = {TRILINEAR, SAMPLED(1, 7, 49), PAPER_PAGES},
          .views = {{.name = "near", .camera = AT(0, 0, 9, 1, 0, 46)}, {.name = "far", .camera = AT(0, 0, -9, 1, 0, 46)}},
          .path = {AT(0, 0, -9, 1, 0, 46), AT(0.6, 0.3, -9, 1, 0, 46)}},
@@ -68,14 +70,14 @@ static const Lesson lesson = {
                         {READING("512x256x32x32", "paper", READS_512_256_32_32, "many places, few directions")},
                         {READING("512x256x64x64", "paper-pages", READS_512_256_64_64, "four times as many directions")}},
          .views = {FRONT, ASIDE, POLE}},
-        {"placements", "balls behind the model, across it and in front of it", GLOBE,
+        {"placements", "balls behind the model, across it and in front of it", GLOBE, FROM_FILE,
          .techniques = {TRILINEAR, SHARED, PAPER, MARKED, DIRECT},
          .views = {{.name = "outside", .camera = AT(1.5, 1, 12, 1, 0, 36)},
                    {.name = "between", .camera = {.eye = {1.835, 0, 3.21}, .target = {-1.4, 0, 0.5}, .up = {0, 1, 0},
                                                   .fov_y_degrees = 80, .near = 0.01, .far = 100}}}},
-        {"cylinder", "the composed scene on the side of a cylinder", GLOBE,
+        {"cylinder", "the composed scene on the side of a cylinder", GLOBE, FROM_FILE,
          .techniques = {TRILINEAR, PAPER, PAPER_FAST}, .views = {FRONT, BACK()}},
-        {"panorama", "an observer inside, solids outside", GLOBE,
+        {"panorama", "an observer inside, solids outside", GLOBE, FROM_FILE,
          .techniques = {TRILINEAR, PAPER, PAPER_FAST, DIRECT},
          .views = {{.name = "centre", .camera = {.target = {0, 0, 1}, .up = {0, 1, 0}, .fov_y_degrees = 90, .near = 0.01, .far = 100}},
                    {.name = "aside", .camera = {.eye = {1.5, 0.5, -1}, .target = {-2, 0, 2}, .up = {0, 1, 0}, .fov_y_degrees = 90,
