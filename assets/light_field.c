@@ -203,7 +203,7 @@ static Wishes read_options(int count, char **arguments) {
                                             {0}};
     Wishes wishes = {.scene = &light_composed, .field = {.radius = 3.5}, .samples = 7};
     int model = -1;
-    double height = 6.0;
+    double height = NAN;
     opterr = 0; /* its message is ours */
     for (int option; (option = getopt_long(count, arguments, ":h", options, NULL)) != -1;) switch (option) {
         case SCENE:
@@ -224,7 +224,10 @@ static Wishes read_options(int count, char **arguments) {
         fail_usage("--samples %d: there may be 1 to %d", wishes.samples, SAMPLES_MOST);
     if (model < 0) model = wishes.scene == &light_around ? FIELD_ROOM : FIELD_SPHERE;
     wishes.field.model = (FieldModel)model;
-    if (model == FIELD_CYLINDER) wishes.field.height = height;
+    if (model != FIELD_CYLINDER && !isnan(height)) fail_usage("--height: only a cylinder has one");
+    if ((model == FIELD_ROOM) != (wishes.scene == &light_around))
+        fail_usage("--model %s: a room is for the scene around, and only that", models[model]);
+    if (model == FIELD_CYLINDER) wishes.field.height = isnan(height) ? 6.0 : height;
     return wishes;
 }
 
