@@ -61,9 +61,11 @@ static void read_file(Globe *globe, const char *path) {
     Recipe *usual = &globe->usual;
     FieldHeader own = field_header(&header->field, usual->scene, header->samples, usual->through);
     if (header->codec != FIELD_RAW) fail("%s: is encoded; lesson 19 reads such files", path);
-    if (!field_header_equal(header, &own) || header->field.model != usual->field.model ||
-        header->field.radius != usual->field.radius || header->field.height != usual->field.height)
+    if (!field_header_equal(header, &own))
         fail("%s: is a light field of %s, not of the scene %s", path, header->scene, usual->scene->name);
+    if (header->field.model != usual->field.model || header->field.radius != usual->field.radius ||
+        header->field.height != usual->field.height)
+        fail("%s: is on another model than the scene %s has", path, usual->scene->name);
     if (header->field.angles != ANGLES_LINEAR) fail("%s: its angles are not linear", path);
     globe->path = text("%s", path);
     usual->field = header->field;
