@@ -263,6 +263,8 @@ CASE_EQUALS("1e-7 off its axis: taken as parallel", 0, "", 3.0,
             strike_cylinder(nothing(), solids, 1, vec3(4.25, 4.0, 0.0), vec3(1e-7, -1.0, 0.0)).depth)
 CASE_EQUALS("2e-6 off its axis: not parallel", 0, "", 3.0,
             strike_cylinder(nothing(), solids, 1, vec3(4.25, 4.0, 0.0), vec3(2e-6, -1.0, 0.0)).depth)
+CASE_EQUALS("2e-6 off its axis from afar: not parallel", 0, "", 262144.0,
+            strike_cylinder(nothing(), solids, 1, vec3(4.75, 262145.0, 0.0), vec3(-2e-6, -1.0, 0.0)).depth)
 CASE("along a slanting axis", 20 * 0x1p-24, "",
      strike_cylinder(nothing(), solids, 2, vec3(2.0, 6.25, 0.0), vec3(-0.6, -0.8, 0.0)).depth)
 CASE_EQUALS("along a slanting axis", 0x1p-24, "", vec3(0.6, 0.8, 0.0),
@@ -356,5 +358,6 @@ CASE_EQUALS("mirrored behind the eye", 2 * 0x1p-24, "", vec3(0.7, 0.35, 0.175),
 CASE("the light has just risen", 56 * 0x1p-24 + 6.4e-6, "",
      phong(vec3(1.0, 0.5, 0.25), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 1.1920928955078125e-07),
            vec3(1.0, 0.0, -1.1920928955078125e-07)))
-CASE("a highlight's slope", 56 * 0x1p-24 + 6.4e-6, "",
-     phong(vec3(1.0, 0.5, 0.25), vec3(0.6, 0.0, 0.8), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0)))
+CASE_EQUALS("a highlight's slope: 0.96^32", 56 * 0x1p-24 + 6.4e-6, "",
+            vec3(0.5612457612004255, 0.3212457612004254, 0.2012457612004254),
+            phong(vec3(1.0, 0.5, 0.25), vec3(0.6, 0.0, 0.8), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0)))
