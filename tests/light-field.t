@@ -152,6 +152,44 @@ refuses('what is not there', 1, 'none.field: No such file', 'show', "$tmp/none.f
 spew("$tmp/broken.field", substr $whole, 0, 5000);
 refuses('making where a broken one is', 1, 'broken.field: truncated', 'make', "$tmp/broken.field", '--size', '16x8x8x8');
 
+# ---- The lesson that reads it ----
+
+my @shows = qw(build/18-light-field --scene composed --view front --size 32x24);
+
+sub picture { # of a light field, by a technique
+    my ($what, $field, $technique) = @_;
+    my ($status, undef, $err) = run(@shows, '--technique', $technique, '--colour', $field, '--render', "$tmp/shown");
+    is($status, 0, $what) or diag $err;
+    return slurp("$tmp/shown/composed-front-$technique.exr");
+}
+
+sub not_shown {
+    my ($what, $line, $field, @rest) = @_;
+    my ($status, undef, $err) = run(@shows, qw(--technique paper), '--colour', $field, '--render', "$tmp/shown", @rest);
+    ok($status eq 1 && $err =~ /^18-light-field: [^\n]*$line\n\z/, "$what is not shown") or diag "status $status: $err";
+}
+
+# Noise tells what was read: were the texels made again, one ray each, those of two files would be the same.
+makes("$_ rays", "$tmp/$_.field", qw(--size 16x8x9x10 --samples), $_) for 1, 50;
+my $shown_1 = picture('one ray a texel', "$tmp/1.field", 'paper');
+ok $shown_1 ne picture('fifty', "$tmp/50.field", 'paper'), 'what is shown is what is in the file';
+ok picture('in pages', "$tmp/1.field", 'paper-pages') eq $shown_1, 'paper-pages shows the same';
+picture("$_ shows a file", $small, $_) for qw(depth-corrected trilinear paper-fast);
+makes('one of two textures', "$tmp/wide.field", qw(--size 1024x8x32x8 --samples 1));
+picture('in two textures', "$tmp/wide.field", 'paper-pages');
+not_shown('it by a shader for one', 'paper: this light field lies in 2 textures, which paper-pages alone reads', "$tmp/wide.field");
+not_shown('one of another scene', 'placements: is a light field of placements, not of the scene composed', "$tmp/placements");
+not_shown('one with other light', 'effects: is a light field of effects, not of the scene composed', "$tmp/effects");
+makes('a smaller model', "$tmp/less.field", qw(--size 16x8x9x10 --radius 2.75));
+not_shown('one on a smaller model', 'less.field: is on another model than the scene composed has', "$tmp/less.field");
+not_shown('one on a cylinder', 'cylinder: is on another model than the scene composed has', "$tmp/cylinder");
+makes('sines', "$tmp/sine.field", qw(--size 16x8x9x10 --angles sine));
+not_shown('one of other angles', 'sine.field: its angles are not linear', "$tmp/sine.field");
+not_shown('a broken one', 'broken.field: truncated[^\n]*', spew("$tmp/broken.field", substr $whole, 0, 5000));
+not_shown('a picture', 'checker.png: not a light field', 'build/assets/checker.png');
+substr(my $changed = $whole, 128 + 3 * $row + 500, 1) ^= "\x10";
+not_shown('one with a wrong byte', 'broken.field: broken: the checksum of section 3 is wrong', spew("$tmp/broken.field", $changed));
+
 # ---- A disk that is full: here a limit on a file's size, 100 KiB ----
 
 {

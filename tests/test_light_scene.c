@@ -133,10 +133,44 @@ static void test_apart(void **state) {
     assert_null(light_scene_named("none"));
 }
 
+/* The composed scene, solid by solid, as its table has it. */
+static void test_composed(void **state) {
+    (void)state;
+    static const Solid table[] = {
+        {SOLID_SPHERE, {1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {1, 1, 1}},
+        {SOLID_SPHERE, {1, 1, 1}, {0, 0, -1.87}, {0, 0, 0}, {1, 0, 0}},
+        {SOLID_CYLINDER, {1, 2, 1}, {2.62, 0, 0}, {0, 0, 0}, {0.5, 0, 0.5}},
+        {SOLID_CYLINDER, {1, 2, 1}, {-1.07, -0.41, 1.81}, {90, 0, 0}, {0, 0, 1}},
+        {SOLID_CYLINDER, {1, 2, 1}, {0.87, 0.76, 2.06}, {0, 0, 0}, {0, 0, 0}},
+        {SOLID_BOX, {1, 1, 1}, {-1.2, 0.71, -0.68}, {0, 0, 0}, {0, 1, 0}},
+        {SOLID_BOX, {1, 1, 1}, {1.47, -1.05, 0.93}, {0, 0, 0}, {1, 1, 0}},
+    };
+    const LightScene *const both[] = {&light_composed, &light_effects};
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(both[k]->count, 7);
+        assert_memory_equal(&both[k]->toward_light, &((Vec3){1, 0, 0}), sizeof(Vec3));
+        assert_int_equal(both[k]->effects, k);
+        for (int i = 0; i < 7; i++) {
+            const Solid *solid = &both[k]->solids[i], *own = &table[i];
+            assert_int_equal(solid->kind, own->kind);
+            assert_memory_equal(&solid->size, &own->size, sizeof(Vec3));
+            assert_memory_equal(&solid->centre, &own->centre, sizeof(Vec3));
+            assert_memory_equal(&solid->turn_degrees, &own->turn_degrees, sizeof(Vec3));
+            assert_memory_equal(&solid->colour, &own->colour, sizeof(Vec3));
+        }
+    }
+    /* The aliasing cylinder stands on one side, within the sphere of diameter 7. */
+    const Solid *alone = &light_aliasing.solids[0];
+    assert_true(light_aliasing.count == 1 && alone->kind == SOLID_CYLINDER);
+    assert_memory_equal(&alone->size, &((Vec3){1, 2, 1}), sizeof(Vec3));
+    assert_true(alone->centre.x == 0 && alone->centre.y == 0 && alone->centre.z > 2);
+    assert_true(hypot(alone->centre.z + 0.5, 1) < 3.5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ball),  cmocka_unit_test(test_shadow), cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_clear), cmocka_unit_test(test_apart),
+        cmocka_unit_test(test_clear), cmocka_unit_test(test_apart),  cmocka_unit_test(test_composed),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("light_scene", tests, NULL, NULL);

@@ -63,9 +63,9 @@ static void read_file(Globe *globe, const char *path) {
     FieldHeader expected = field_header(field, usual->scene, header->samples, usual->through);
     if (header->codec != FIELD_RAW) fail("%s: is encoded; lesson 19 reads such files", path);
     if (!field_header_equal(header, &expected))
-        fail("%s: is a light field of %s, not of this scene's %s", path, header->scene, usual->scene->name);
+        fail("%s: is a light field of %s, not of the scene %s", path, header->scene, usual->scene->name);
     if (field->model != own->model || field->radius != own->radius || field->height != own->height)
-        fail("%s: its model is not this scene's (--list says which that is)", path);
+        fail("%s: is on another model than the scene %s has", path, usual->scene->name);
     if (field->angles != ANGLES_LINEAR) fail("%s: its angles are not linear", path);
     globe->path = text("%s", path);
     usual->field = header->field;

@@ -26,10 +26,11 @@ Struck strike_sphere(Struck so_far, sampler2D solids, int row, vec3 origin, vec3
     return nearer(so_far, depth, (from + depth * way) / radius, solid_number(solids, 5, row));
 }
 
-// Where a line enters the layer between two planes across an axis, and where it leaves.
+// Where a line enters the layer between two planes across an axis, and where it leaves. Along the planes way is 0 or
+// -0, and within the layer these are -infinity and infinity, in this order only if they are sorted.
 vec2 layer(float at, float way, float half_size) {
-    float toward = way < 0.0 ? -1.0 : 1.0;
-    return vec2(-toward * half_size - at, toward * half_size - at) / way;
+    vec2 planes = vec2(-half_size - at, half_size - at) / way;
+    return vec2(min(planes.x, planes.y), max(planes.x, planes.y));
 }
 
 Struck strike_cylinder(Struck so_far, sampler2D solids, int row, vec3 origin, vec3 way) {

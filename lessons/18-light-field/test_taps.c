@@ -1,10 +1,11 @@
-/* The pictures of paper.frag and its relatives as OSMesa draws them, against the sixteen taps in doubles from
+/* The pictures of paper.frag and its relatives as OSMesa draws them, against the same taps in doubles from
  * the paper's own equations: frames by cross products, angles by Eq. 5, and none of common/light_field.c. The
  * fields hold random bytes, the hardest content: neighbours differ by as much as they can. */
 #include "context.h"
 #include "draw.h"
 #include "fail.h"
-#include "field_draw.h"
+#include "fields.h"
+#include "image.h"
 #include "stage.h"
 
 #include <setjmp.h>
@@ -87,9 +88,22 @@ static Vec3 angular_taps(const Field *field, const uint8_t *texels, int u, int v
     return sum;
 }
 
+/* What is looked up in, and where from. */
+typedef struct {
+    const Field *field;
+    const uint8_t *texels;
+    const Image *depths; /* COARSE^4 texels each, as in fields.h */
+    double mean_depth;
+} Held;
+
+/* How a neighbour's angles are found: those of the direction d toward the eye in its own frame; in the
+ * point's frame; or those of the way from the point d to the neighbour. */
+typedef enum { IN_ITS_FRAME, IN_THE_POINTS, FROM_BEHIND } Angles;
+
 /* The neighbours of a point are texels of the plane (u, v); which one each is, and where it lies, is asked of
  * the geometry: the point is made first, and is given its own (u, v) by Eq. 3. */
-static Vec3 sixteen_in_doubles(const Field *field, const uint8_t *texels, Vec3 p, Vec3 d) {
+static Vec3 sixteen_in_doubles(const Held *held, Angles how, Vec3 p, Vec3 d) {
+    const Field *field = held->field;
     Vec2 uv = equation_3(field, p);
     double x = uv.x * field->u - 0.5, y = uv.y * field->v - 0.5;
     Vec3 sum = {0, 0, 0};
@@ -100,10 +114,82 @@ static Vec3 sixteen_in_doubles(const Field *field, const uint8_t *texels, Vec3 p
         Vec3 centre = point_at(field, (column + 0.5) / field->u, (row + 0.5) / field->v);
         Vec2 own = equation_3(field, centre);
         int u = (int)floor(own.x * field->u) % field->u, v = (int)floor(own.y * field->v);
-        sum = vec3_add(sum,
-                       vec3_scale(angular_taps(field, texels, u, v, equation_5(field, centre, d)), weight));
+        Vec2 angles = equation_5(field, how == IN_THE_POINTS ? p : centre,
+                                 how == FROM_BEHIND ? vec3_normalize(vec3_sub(centre, d)) : d);
+        sum = vec3_add(sum, vec3_scale(angular_taps(field, held->texels, u, v, angles), weight));
     }
     return sum;
+}
+
+/* ---- What each program shows of the point p, on a ray along `way`; false where float may decide otherwise
+ * ---- */
+
+typedef bool Taps(const Held *held, Vec3 p, Vec3 way, Vec3 *light);
+
+static bool paper_taps(const Held *held, Vec3 p, Vec3 way, Vec3 *light) {
+    *light = sixteen_in_doubles(held, IN_ITS_FRAME, p, vec3_scale(way, -1));
+    return true;
+}
+
+static bool shared_taps(const Held *held, Vec3 p, Vec3 way, Vec3 *light) {
+    *light = sixteen_in_doubles(held, IN_THE_POINTS, p, vec3_scale(way, -1));
+    return true;
+}
+
+static bool mean_taps(const Held *held, Vec3 p, Vec3 way, Vec3 *light) {
+    *light = sixteen_in_doubles(held, FROM_BEHIND, p, vec3_add(p, vec3_scale(way, held->mean_depth)));
+    return true;
+}
+
+/* The cell of the width `wide`, of those from 0 to below n, that holds x; false next to where two meet. */
+static bool cell_of(double x, int n, int wide, int *cell) {
+    x = clamp(x, 0.5, n - 0.5) / wide;
+    *cell = (int)x;
+    double part = x - *cell, outermost = 0.5 / wide;
+    return (part > 1e-3 || x < outermost + 1e-3) &&
+           (part < 1 - 1e-3 || x > (double)n / wide - outermost - 1e-3);
+}
+
+/* The texel of u and v that holds a point, and its centre. */
+static bool holder(const Field *field, Vec3 p, int *u, int *v, Vec3 *centre) {
+    Vec2 uv = equation_3(field, p);
+    double x = uv.x * field->u, y = uv.y * field->v;
+    *u = (int)fmin(x, field->u - 1), *v = (int)fmin(y, field->v - 1);
+    *centre = point_at(field, (*u + 0.5) / field->u, (*v + 0.5) / field->v);
+    return fabs(x - round(x)) > 1e-3 && fabs(y - round(y)) > 1e-3;
+}
+
+static bool nearest_tap(const Held *held, Vec3 p, Vec3 way, Vec3 *light) {
+    const Field *field = held->field;
+    int u, v, s, t;
+    Vec3 centre;
+    bool sure = holder(field, p, &u, &v, &centre);
+    Vec2 angles = equation_5(field, centre, vec3_scale(way, -1));
+    sure = cell_of(angles.x * field->s, field->s, 1, &s) && sure;
+    sure = cell_of(angles.y * field->t, field->t, 1, &t) && sure;
+    *light = angular_taps(field, held->texels, u, v, v2((s + 0.5) / field->s, (t + 0.5) / field->t));
+    return sure;
+}
+
+/* The depth that is known along d, seen from the texel that holds p. */
+static bool depth_known(const Held *held, Vec3 p, Vec3 d, bool toward, double *depth) {
+    const Field *field = held->field;
+    int u, v, s, t, across = (field->s + COARSE - 1) / COARSE, up = (field->t + COARSE - 1) / COARSE;
+    Vec3 centre;
+    bool sure = holder(field, p, &u, &v, &centre);
+    Vec2 angles = equation_5(field, centre, toward ? d : vec3_normalize(vec3_sub(centre, d)));
+    sure = cell_of(angles.x * field->s, field->s, COARSE, &s) && sure;
+    sure = cell_of(angles.y * field->t, field->t, COARSE, &t) && sure;
+    *depth = image_at(held->depths, u * across + s, v * up + t)[0];
+    return sure;
+}
+
+static bool corrected_taps(const Held *held, Vec3 p, Vec3 way, Vec3 *light) {
+    double first, second;
+    bool sure = depth_known(held, p, vec3_scale(way, -1), true, &first);
+    sure = depth_known(held, p, vec3_add(p, vec3_scale(way, first)), false, &second) && sure;
+    *light = sixteen_in_doubles(held, FROM_BEHIND, p, vec3_add(p, vec3_scale(way, second)));
+    return sure;
 }
 
 /* Where a ray meets the model; false where it does not, or almost does not: within a thousandth of the radius
@@ -145,7 +231,8 @@ static Program build(const char *fragment) {
     return program;
 }
 
-static void draw(Program *program, const FieldTexture *texture, const Camera *camera, Picture *picture) {
+static void draw_with(Program *program, const FieldTexture *texture, const Texture *depths, double mean_depth,
+                      const Camera *camera, Picture *picture) {
     Frame frame = {.program = program, .camera = *camera, .width = SIDE, .height = SIDE};
     Target target = target_create(SIDE, SIDE, true);
     target_begin(&target, (Vec3){0});
@@ -153,10 +240,16 @@ static void draw(Program *program, const FieldTexture *texture, const Camera *ca
     program_vector(program, "size", SIDE, SIDE, 0, 0);
     field_uniforms(&frame, &texture->field);
     field_texture_bind(program, texture);
+    if (depths) program_texture(program, "depths", depths);
+    program_number(program, "mean_depth", mean_depth);
     draw_everywhere();
     target_read(&target, picture);
     draw_check("test_taps");
     target_destroy(&target);
+}
+
+static void draw(Program *program, const FieldTexture *texture, const Camera *camera, Picture *picture) {
+    draw_with(program, texture, NULL, 0, camera, picture);
 }
 
 static uint8_t *random_texels(const Field *field) {
@@ -182,7 +275,7 @@ static Camera looking(Vec3 eye, Vec3 target, double fov) {
 }
 
 /* Hard cameras first, then random ones; radius is the model's. */
-enum { HARD = 8, CAMERAS = 14 };
+enum { AFAR = 6, CAMERAS = 14 };
 static Camera camera_number(int i, const Field *field) {
     double r = field->radius;
     if (field->model == FIELD_ROOM) {
@@ -200,7 +293,7 @@ static Camera camera_number(int i, const Field *field) {
     case 3: return looking(v3(0.9 * r, 0, -0.9 * r), v3(-r, 0, -r), 70);       /* grazing the seam */
     case 4: return looking(v3(0, 1.05 * r, 0.1 * r), v3(0.3 * r, r, -r), 100); /* close to a pole, grazing */
     case 5: return looking(v3(0, 0, 1.02 * r), v3(0, 0, 0), 100);              /* near */
-    case 6: return looking(v3(70 * r, 30 * r, 20 * r), v3(0, 0, 0), 1.6);      /* far */
+    case 6: return looking(v3(70 * r, 30 * r, 20 * r), v3(0, 0, 0), 1.6);      /* AFAR */
     case 7: return flat;                                                       /* orthographic */
     }
     return looking(vec3_scale(random_direction(), r * random_in(1.3, 5)),
@@ -221,7 +314,7 @@ enum { FIELDS = sizeof fields / sizeof *fields };
 
 typedef struct {
     double linear, srgb; /* largest differences, in 255ths */
-    long pixels;
+    long pixels, unsure;
 } Apart;
 
 static void compare(Apart *apart, const double *expected, const float *got) {
@@ -233,49 +326,125 @@ static void compare(Apart *apart, const double *expected, const float *got) {
 }
 
 /* A picture of a program against the double-precision taps. */
-static void compare_to_doubles(Apart *apart, const Field *field, const uint8_t *texels, const Camera *camera,
+static void compare_to_doubles(Apart *apart, Taps *taps, const Held *held, const Camera *camera,
                                const Picture *picture) {
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
-            Vec3 p;
+            Vec3 p, light;
             Ray ray = camera_ray(camera, SIDE, SIDE, x + 0.5, y + 0.5);
-            if (!meet(field, ray, &p)) continue;
-            Vec3 light = sixteen_in_doubles(field, texels, p, vec3_scale(ray.direction, -1));
-            compare(apart, (double[]){light.x, light.y, light.z}, image_at(&picture->colour, x, y));
+            if (!meet(held->field, ray, &p)) continue;
             if (image_at(&picture->lookup, x, y)[3] != 1.0f) fail_msg("a pixel was left out");
+            if (taps(held, p, ray.direction, &light))
+                compare(apart, (double[]){light.x, light.y, light.z}, image_at(&picture->colour, x, y));
+            else
+                apart->unsure++;
         }
 }
 
-static void check_scale(FieldAngles angles, const char *fragment) {
+/* Depths from a third of the radius to all of it: what lies nearer is seen in directions that differ by
+ * rounding's share of that nearness. */
+static Image random_depths(const Field *field) {
+    Image depths = image_create(field->u * ((field->s + COARSE - 1) / COARSE),
+                                field->v * ((field->t + COARSE - 1) / COARSE), 1);
+    for (int y = 0; y < depths.height; y++)
+        for (int x = 0; x < depths.width; x++)
+            image_at(&depths, x, y)[0] = (float)(field->radius * random_in(0.33, 1));
+    return depths;
+}
+
+static void check_program(FieldAngles angles, const char *fragment, Taps *taps, bool spheres_only) {
     Program program = build(fragment);
     Picture picture = picture_create(SIDE, SIDE, true);
     Apart apart = {0};
     for (int f = 0; f < FIELDS; f++) {
         Field field = fields[f];
+        if (spheres_only && field.model != FIELD_SPHERE) continue;
         field.angles = angles;
         assert_null(field_refused(&field));
         uint8_t *texels = random_texels(&field);
         FieldTexture texture = upload(&field, texels);
+        Image coarse = random_depths(&field);
+        Texture depths = texture_create(&coarse, 1, TEXTURE_FLOAT, TEXTURE_NEAREST);
+        Held held = {&field, texels, &coarse, 0.6 * field.radius};
         for (int i = 0; i < CAMERAS; i++) {
             Camera camera = camera_number(i, &field);
-            draw(&program, &texture, &camera, &picture);
-            compare_to_doubles(&apart, &field, texels, &camera, &picture);
+            draw_with(&program, &texture, &depths, held.mean_depth, &camera, &picture);
+            compare_to_doubles(&apart, taps, &held, &camera, &picture);
         }
+        texture_destroy(&depths);
+        image_destroy(&coarse);
         field_texture_destroy(&texture);
         free(texels);
     }
     picture_destroy(&picture);
     program_destroy(&program);
-    print_message("%s: %ld pixels, at most %.4f/255 in linear light, %.4f codes of sRGB\n", fragment,
-                  apart.pixels, apart.linear, apart.srgb);
-    assert_true(apart.pixels > 50000);
+    print_message("%s: %ld pixels (and %ld unsure), at most %.4f/255 in linear light, %.4f codes of sRGB\n",
+                  fragment, apart.pixels, apart.unsure, apart.linear, apart.srgb);
+    assert_true(apart.pixels > 50000 && apart.unsure < apart.pixels / 20);
     assert_true(apart.linear <= 1 && apart.srgb <= 1);
 }
 
-static void test_paper(void **state) { (void)state, check_scale(ANGLES_LINEAR, "paper.frag"); }
-static void test_sine(void **state) { (void)state, check_scale(ANGLES_SINE, "sine.frag"); }
+static void test_paper(void **state) {
+    (void)state, check_program(ANGLES_LINEAR, "paper.frag", paper_taps, false);
+}
+static void test_sine(void **state) {
+    (void)state, check_program(ANGLES_SINE, "sine.frag", paper_taps, false);
+}
 static void test_stereographic(void **state) {
-    (void)state, check_scale(ANGLES_STEREOGRAPHIC, "stereographic.frag");
+    (void)state, check_program(ANGLES_STEREOGRAPHIC, "stereographic.frag", paper_taps, false);
+}
+static void test_shared(void **state) {
+    (void)state, check_program(ANGLES_LINEAR, "shared.frag", shared_taps, false);
+}
+static void test_nearest(void **state) {
+    (void)state, check_program(ANGLES_LINEAR, "nearest.frag", nearest_tap, false);
+}
+static void test_depth_mean(void **state) {
+    (void)state, check_program(ANGLES_LINEAR, "depth-mean.frag", mean_taps, true);
+}
+static void test_depth_corrected(void **state) {
+    (void)state, check_program(ANGLES_LINEAR, "depth-corrected.frag", corrected_taps, true);
+}
+
+/* Nearly all that the programs are off by is OSMesa's decoding of bytes: each code alone, fetched, against
+ * the formula of sRGB. */
+static void test_decoding(void **state) {
+    (void)state;
+    Program program = {0};
+    char *log = program_build_text(&program, folder, common, "everywhere.vert", "decoding",
+                                   "uniform sampler2D page;\n"
+                                   "layout(location = 0) out vec4 colour;\n"
+                                   "layout(location = 1) out vec4 lookup;\n"
+                                   "void main() {\n"
+                                   "    colour = texelFetch(page, ivec2(gl_FragCoord.xy), 0);\n"
+                                   "    lookup = vec4(1.0);\n"
+                                   "}\n",
+                                   GLSL_330);
+    if (log) fail_msg("%s", log);
+    uint8_t codes[256 * 3];
+    for (int i = 0; i < 256 * 3; i++) codes[i] = (uint8_t)(i / 3);
+    Texture row = texture_empty(256, 1, TEXTURE_SRGBA8, TEXTURE_LINEAR);
+    texture_write_part(&row, TEXTURE_SRGB8, 0, 0, 256, 1, codes);
+    Picture picture = picture_create(256, 1, true);
+    Target target = target_create(256, 1, true);
+    target_begin(&target, (Vec3){0});
+    program_use(&program);
+    program_texture(&program, "page", &row);
+    draw_everywhere();
+    target_read(&target, &picture);
+    double largest = 0;
+    int at = 0;
+    for (int i = 0; i < 256; i++)
+        for (int c = 0; c < 3; c++) {
+            double off = 255 * fabs(image_at(&picture.colour, i, 0)[c] - linear_light((uint8_t)i));
+            if (off > largest) largest = off, at = i;
+        }
+    print_message("decoding of sRGB: at most %.4f/255, for the code %d\n", largest, at);
+    assert_true(largest <= 0.32);
+    target_destroy(&target);
+    picture_destroy(&picture);
+    texture_destroy(&row);
+    program_destroy(&program);
 }
 
 /* ---- Two programs that must show the same ---- */
@@ -289,40 +458,66 @@ static void compare_pictures(Apart *apart, const Picture *a, const Picture *b) {
         }
 }
 
-/* paper-fast.frag asks OpenGL for a place at (block + at) / size, which is rounded by 2^-24 of itself four
- * times (sum, quotient, the sampler's product, minus a half): on an axis of n texels the place is off by at
- * most n 2^-22 texels, and neighbours differ by at most 1. Hardware may round the part between two texels to
- * 8 bits besides: by up to 2^-8 where it truncates. Over two axes that is 255 (n 2^-22 + 2^-8) each: 2/255
- * for the weights, and as much again only for pages of 16384 texels. OSMesa mixes in floats, so that the
- * weights' share is 0 here, and is held to the places alone. */
+/* Half the distance of floats just below n texels: what a place among them rounds by. */
+static double rounding(int n) { return 0.5 * (n - (double)nextafterf((float)n, 0)); }
+
+/* paper-fast.frag asks OpenGL for the place (block + at) / size. The sum, the quotient and the sampler's
+ * product with the size round it by up to half a last digit each, 2^-11 texels on the largest axis, 16384,
+ * and neighbours differ by at most 1. That is 0.37/255 an axis. Hardware may round the part between two
+ * texels to 8 bits besides, by 2^-9, which is 1/255 over two axes, and with both places at most 1.75/255.
+ * OSMesa mixes in floats, so that the weights' share is 0 here, and paper-fast is held to the places alone.
+ *
+ * Where `doubles` is given, paper.frag is held against the taps in doubles as well, but from afar: 78 radii
+ * away, rounding puts the point itself off by up to 6 * 78 * 2^-24 radii (cases.h, meet_sphere), which near a
+ * pole is a good part of a narrow column. */
+static Apart compare_fast(Program *paper, Program *fast, const Field *field, Apart *doubles) {
+    Picture a = picture_create(SIDE, SIDE, true), b = picture_create(SIDE, SIDE, true);
+    uint8_t *texels = random_texels(field);
+    FieldTexture texture = upload(field, texels);
+    Held held = {.field = field, .texels = texels};
+    Apart apart = {0}, afar = {0};
+    for (int i = 0; i < CAMERAS; i++) {
+        Camera camera = camera_number(i, field);
+        draw(paper, &texture, &camera, &a);
+        draw(fast, &texture, &camera, &b);
+        compare_pictures(&apart, &a, &b);
+        if (doubles) compare_to_doubles(i == AFAR ? &afar : doubles, paper_taps, &held, &camera, &a);
+    }
+    assert_int_equal(texture.count, 1);
+    double places = 3 * 255.0 * (rounding(texture.pages[0].width) + rounding(texture.pages[0].height));
+    double own = 255.0 * 32 * 0x1p-24; /* paper.frag's own mixing: 16 products and sums of at most 1 */
+    print_message("%dx%dx%dx%d in %dx%d: paper-fast from paper %.4f/255, bound %.4f", field->u, field->v,
+                  field->s, field->t, texture.pages[0].width, texture.pages[0].height, apart.linear,
+                  places + own);
+    if (doubles) print_message("; paper from doubles %.4f/255, from afar %.4f", doubles->linear, afar.linear);
+    print_message("\n");
+    assert_true(apart.linear <= places + own && apart.srgb <= 2);
+    field_texture_destroy(&texture);
+    free(texels);
+    picture_destroy(&a), picture_destroy(&b);
+    return apart;
+}
+
 static void test_fast(void **state) {
     (void)state;
     Program paper = build("paper.frag"), fast = build("paper-fast.frag");
-    Picture a = picture_create(SIDE, SIDE, true), b = picture_create(SIDE, SIDE, true);
-    Apart all = {0};
-    for (int f = 0; f < FIELDS; f++) {
-        uint8_t *texels = random_texels(&fields[f]);
-        FieldTexture texture = upload(&fields[f], texels);
-        Apart apart = {0};
-        for (int i = 0; i < CAMERAS; i++) {
-            Camera camera = camera_number(i, &fields[f]);
-            draw(&paper, &texture, &camera, &a);
-            draw(&fast, &texture, &camera, &b);
-            compare_pictures(&apart, &a, &b);
-        }
-        double places = 255.0 * (texture.pages[0].width + texture.pages[0].height) * 0x1p-22;
-        double own = 255.0 * 32 * 0x1p-24; /* paper.frag's own mixing: 16 products and sums of at most 1 */
-        if (apart.linear > places + own)
-            fail_msg("%dx%dx%dx%d: %.4f/255 of %.4f", fields[f].u, fields[f].v, fields[f].s, fields[f].t,
-                     apart.linear, places + own);
-        all.linear = fmax(all.linear, apart.linear), all.srgb = fmax(all.srgb, apart.srgb);
-        field_texture_destroy(&texture);
-        free(texels);
+    for (int f = 0; f < FIELDS; f++) compare_fast(&paper, &fast, &fields[f], NULL);
+    program_destroy(&paper), program_destroy(&fast);
+}
+
+/* The longest textures: 16384 texels, or a little less, which is no power of two. */
+static void test_long(void **state) {
+    (void)state;
+    const int sizes[][4] = {{512, 8, 32, 8}, {64, 8, 256, 8}, {546, 8, 30, 8}, {1024, 8, 16, 8},
+                            {8, 512, 8, 32}, {8, 64, 8, 256}, {8, 655, 8, 25}};
+    Program paper = build("paper.frag"), fast = build("paper-fast.frag");
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        const int *n = sizes[k];
+        Field field = {.radius = 3.5, .u = n[0], .v = n[1], .s = n[2], .t = n[3]};
+        Apart doubles = {0};
+        Apart apart = compare_fast(&paper, &fast, &field, &doubles);
+        assert_true(apart.linear <= 2 && doubles.linear <= 1 && doubles.srgb <= 1);
     }
-    print_message("paper-fast.frag: at most %.4f/255 in linear light, %.4f codes of sRGB\n", all.linear,
-                  all.srgb);
-    assert_true(all.linear <= 2 && all.srgb <= 2);
-    picture_destroy(&a), picture_destroy(&b);
     program_destroy(&paper), program_destroy(&fast);
 }
 
@@ -360,11 +555,10 @@ static void test_pages(void **state) {
     program_destroy(&paper), program_destroy(&paged);
 }
 
-/* One block in grey, all others white. Seen from where it fills the middle of the picture, with each end of s
- * and t reached, the pixel nearest to its centre must be that grey but for the share of its neighbours in
- * space: with one of them black, too, nothing comes from across a border. Here: all blocks alike but for
- * their outermost texels' neighbours would not tell; so each block is one colour, and what is seen must be a
- * mix by spatial weights alone, whatever the direction. */
+/* One block is white and all others are black, so the angles do not count: a pixel shows the white block's
+ * spatial weight alone. A tap that left its block would bring white where there is none, or black into the
+ * block, wherever angles reach an end of s or t. So the white block is seen from eight sides, grazing, and
+ * each of those four ends must have been reached. */
 static void test_borders(void **state) {
     (void)state;
     Field field = {.model = FIELD_SPHERE, .radius = 1, .u = 12, .v = 10, .s = 8, .t = 9};
@@ -380,6 +574,7 @@ static void test_borders(void **state) {
             memset(texels + field_row(&field) * (size_t)white_v + field_block(&field) * (size_t)white_u, 255,
                    field_block(&field));
             FieldTexture texture = upload(&field, texels);
+            Held held = {.field = &field, .texels = texels};
             /* From all sides of the white block, grazing: past each end of s and t. */
             Vec3 centre = point_at(&field, (white_u + 0.5) / field.u, (white_v + 0.5) / field.v), x, y, z;
             equation_4(&field, centre, &x, &y, &z);
@@ -390,7 +585,7 @@ static void test_borders(void **state) {
                 Camera camera = looking(eye, centre, 40);
                 draw(&program, &texture, &camera, &picture);
                 Apart apart = {0};
-                compare_to_doubles(&apart, &field, texels, &camera, &picture);
+                compare_to_doubles(&apart, paper_taps, &held, &camera, &picture);
                 if (apart.linear > 0.05) fail_msg("%s reads across a border: %g", fragments[k], apart.linear);
                 Vec2 st = equation_5(&field, centre, vec3_normalize(vec3_sub(eye, centre)));
                 clamped[0] += st.x<0.5 / field.s, clamped[1] += st.x> 1 - 0.5 / field.s;
@@ -407,8 +602,18 @@ static void test_borders(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_paper), cmocka_unit_test(test_sine),  cmocka_unit_test(test_stereographic),
-        cmocka_unit_test(test_fast),  cmocka_unit_test(test_pages), cmocka_unit_test(test_borders),
+        cmocka_unit_test(test_paper),
+        cmocka_unit_test(test_sine),
+        cmocka_unit_test(test_stereographic),
+        cmocka_unit_test(test_shared),
+        cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_depth_mean),
+        cmocka_unit_test(test_depth_corrected),
+        cmocka_unit_test(test_decoding),
+        cmocka_unit_test(test_fast),
+        cmocka_unit_test(test_long),
+        cmocka_unit_test(test_pages),
+        cmocka_unit_test(test_borders),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("taps", tests, start, end);
