@@ -75,6 +75,11 @@ struct sampler2D {
     const CaseTexture *texture;
 };
 
+/* Whole numbers, which as floats are exact up to 2^24. */
+struct usampler2D {
+    const CaseTexture *texture;
+};
+
 inline ivec2 textureSize(sampler2D sampler, int level) {
     const Image &image = sampler.texture->levels[level];
     return ivec2(image.width, image.height);
@@ -88,6 +93,12 @@ inline vec4 texelFetch(sampler2D sampler, ivec2 at, int level) {
         return vec4(std::numeric_limits<float>::quiet_NaN());
     const Texel *rgba = image_at(&texture.levels[level], at.x, at.y);
     return vec4(rgba[0], rgba[1], rgba[2], rgba[3]);
+}
+
+/* Outside of the image what no technique may count on. */
+inline uvec4 texelFetch(usampler2D sampler, ivec2 at, int level) {
+    vec4 texel = texelFetch(sampler2D{sampler.texture}, at, level);
+    return texel.x == texel.x ? uvec4(texel) : uvec4(0xdeadbeef);
 }
 
 /* A whole number modulo size; fmod is exact however large the number is. */
