@@ -46,6 +46,8 @@
 
 #include "cases_table.h"
 
+#undef PI /* vec.h's: a technique may have one of its own */
+
 #include <cmath>
 #include <limits>
 #include <type_traits>

@@ -14,36 +14,28 @@ typedef struct {
     double end[2][3];
 } Line;
 
-/* The two texels farthest apart along the axis on which the colours vary most (by the power method). */
+/* The texel whose colour is farthest from another colour. */
+static int farthest(const uint8_t patch[PATCH_BYTES], const double colour[3]) {
+    int best = 0;
+    double most = -1.0;
+    for (int i = 0; i < TEXELS; i++) {
+        double far = 0.0;
+        for (int k = 0; k < 3; k++) far += (patch[3 * i + k] - colour[k]) * (patch[3 * i + k] - colour[k]);
+        if (far > most) most = far, best = i;
+    }
+    return best;
+}
+
+/* Between the colour farthest from the mean, and the one farthest from that. */
 static Line line_through(const uint8_t patch[PATCH_BYTES]) {
-    double mean[3] = {0}, matrix[3][3] = {{0}}, axis[3] = {1, 1, 1}, lowest = INFINITY, highest = -INFINITY;
-    Line line = {{{0}}};
+    double mean[3] = {0};
+    Line line;
     for (int i = 0; i < TEXELS; i++)
         for (int k = 0; k < 3; k++) mean[k] += patch[3 * i + k] / (double)TEXELS;
-    for (int i = 0; i < TEXELS; i++)
-        for (int k = 0; k < 3; k++)
-            for (int l = 0; l < 3; l++)
-                matrix[k][l] += (patch[3 * i + k] - mean[k]) * (patch[3 * i + l] - mean[l]);
-    for (int power = 0; power < 8; power++) {
-        double next[3], largest = 0.0;
-        for (int k = 0; k < 3; k++) {
-            next[k] = matrix[k][0] * axis[0] + matrix[k][1] * axis[1] + matrix[k][2] * axis[2];
-            largest = fmax(largest, fabs(next[k]));
-        }
-        for (int k = 0; k < 3 && largest > 0.0; k++) axis[k] = next[k] / largest;
-    }
-    for (int i = 0; i < TEXELS; i++) {
-        double along = 0.0;
-        for (int k = 0; k < 3; k++) along += axis[k] * patch[3 * i + k];
-        if (along < lowest) {
-            lowest = along;
-            for (int k = 0; k < 3; k++) line.end[0][k] = patch[3 * i + k];
-        }
-        if (along > highest) {
-            highest = along;
-            for (int k = 0; k < 3; k++) line.end[1][k] = patch[3 * i + k];
-        }
-    }
+    int a = farthest(patch, mean);
+    for (int k = 0; k < 3; k++) line.end[0][k] = patch[3 * a + k];
+    int b = farthest(patch, line.end[0]);
+    for (int k = 0; k < 3; k++) line.end[1][k] = patch[3 * b + k];
     return line;
 }
 

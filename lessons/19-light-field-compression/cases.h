@@ -1,12 +1,13 @@
-// The hard cases of this lesson's functions. u is float's unit roundoff, 2^-24. What is whole numbers has no rounding
-// at all: bounds of 0, the same from GLSL and from GLM.
+// The hard cases of this lesson's functions. u is float's unit roundoff, 2^-24. What is whole numbers has no
+// rounding at all: bounds of 0, the same from GLSL and from GLM.
 
 // ---- block_at, in_rows: the first and the last
 
 CASE_EQUALS("first block", 0, "", vec2(0.0, 0.0), vec2(block_at(ivec2(0, 0), ivec2(0, 0), ivec2(16, 16))))
-CASE_EQUALS("last along s and t, next to a block of the next u and v", 0, "", vec2(47.0, 31.0),
+CASE_EQUALS("last along s and t beside the next u and v", 0, "", vec2(47.0, 31.0),
             vec2(block_at(ivec2(2, 1), ivec2(15, 15), ivec2(16, 16))))
-CASE_EQUALS("one block along s and t", 0, "", vec2(7.0, 3.0), vec2(block_at(ivec2(7, 3), ivec2(0, 0), ivec2(1, 1))))
+CASE_EQUALS("one block along s and t", 0, "", vec2(7.0, 3.0),
+            vec2(block_at(ivec2(7, 3), ivec2(0, 0), ivec2(1, 1))))
 CASE_EQUALS("last of a row", 0, "", vec2(4095.0, 0.0), vec2(in_rows(4095, 12)))
 CASE_EQUALS("first of the next row", 0, "", vec2(0.0, 1.0), vec2(in_rows(4096, 12)))
 CASE_EQUALS("the last leaf that 26 bits can name", 0, "", vec2(4095.0, 16383.0), vec2(in_rows(67108863, 12)))
@@ -14,19 +15,23 @@ CASE_EQUALS("the last leaf that 26 bits can name", 0, "", vec2(4095.0, 16383.0),
 // ---- ramp_place: entries as ramp.h has them
 
 CASE_EQUALS("black", 0, "", 0.0, float(ramp_place(0u, ivec4(511, 255, 31, 31)).leaf))
-CASE_EQUALS("one leaf, its last texel", 0, "", vec4(7.0, 7.0, 1.0, 1.0), vec4(ramp_place(64u, ivec4(15, 7, 1, 3)).within))
-CASE_EQUALS("one leaf, the first texel behind a border on all sides", 0, "", vec4(0.0, 0.0, 0.0, 0.0),
+CASE_EQUALS("one leaf: its last texel", 0, "", vec4(7.0, 7.0, 1.0, 1.0),
+            vec4(ramp_place(64u, ivec4(15, 7, 1, 3)).within))
+CASE_EQUALS("one leaf: the first texel behind a border on all sides", 0, "", vec4(0.0, 0.0, 0.0, 0.0),
             vec4(ramp_place(64u, ivec4(8, 16, 2, 30)).within))
-CASE_EQUALS("halved along u alone: the left leaf", 0, "", 5.0, float(ramp_place(0x141u, ivec4(3, 7, 1, 1)).leaf))
-CASE_EQUALS("halved along u alone: the right leaf", 0, "", 6.0, float(ramp_place(0x141u, ivec4(4, 7, 1, 1)).leaf))
+CASE_EQUALS("halved along u alone: the left leaf", 0, "", 5.0,
+            float(ramp_place(0x141u, ivec4(3, 7, 1, 1)).leaf))
+CASE_EQUALS("halved along u alone: the right leaf", 0, "", 6.0,
+            float(ramp_place(0x141u, ivec4(4, 7, 1, 1)).leaf))
 CASE_EQUALS("halved along t alone", 0, "", 6.0, float(ramp_place(0x160u, ivec4(7, 7, 1, 1)).leaf))
 CASE_EQUALS("halved along s alone: its place goes", 0, "", vec4(7.0, 7.0, 0.0, 1.0),
             vec4(ramp_place(0x150u, ivec4(7, 7, 1, 1)).within))
-CASE_EQUALS("halved as often as can be: the last leaf", 0, "", 260.0, float(ramp_place(0x17fu, ivec4(7, 7, 1, 1)).leaf))
+CASE_EQUALS("halved as often as can be: the last leaf", 0, "", 260.0,
+            float(ramp_place(0x17fu, ivec4(7, 7, 1, 1)).leaf))
 CASE_EQUALS("halved as often as can be: a leaf is a texel", 0, "", vec4(0.0),
             vec4(ramp_place(0x17fu, ivec4(5, 6, 1, 0)).within))
 CASE_EQUALS("u before v before s", 0, "", 27.0, float(ramp_place(0x15au, ivec4(3, 5, 1, 0)).leaf))
-CASE_EQUALS("v alone, in four", 0, "", 8.0, float(ramp_place(0x148u, ivec4(7, 6, 0, 0)).leaf))
+CASE_EQUALS("v alone in four", 0, "", 8.0, float(ramp_place(0x148u, ivec4(7, 6, 0, 0)).leaf))
 CASE_EQUALS("the last leaf that 26 bits can name: no sign", 0, "", 67108863.0,
             float(ramp_place(0xffffffc0u, ivec4(0)).leaf))
 
@@ -38,8 +43,9 @@ CASE_EQUALS("most below, all bits above", 0, "", 32767.0, low_half(0xffff7fffu))
 CASE_EQUALS("least above, all bits below", 0, "", -32768.0, high_half(0x8000ffffu))
 CASE_EQUALS("least below", 0, "", -32768.0, low_half(0x00008000u))
 
-// ---- ramp_light: the root is 255 or less, off by 3 u of that after the mix and by what the share is off, which is of
-// numbers up to 40: 40 * 4 u; a square doubles it. Cases whose share is a whole number have the end's colour.
+// ---- ramp_light: the root is 255 or less, off by 3 u of that after the mix and by what the share is off,
+// which is of numbers up to 40: 40 * 4 u; a square doubles it. Cases whose share is a whole number have the
+// end's colour.
 
 CASE_EQUALS("first colour", 6 * 0x1p-24, "linear", vec3(1.0, 0.0, 0.251964629),
             ramp_light(uvec4(0x8000ffu, 0x00ff00u, 0u, 0u), ivec4(7, 7, 1, 1)))

@@ -16,8 +16,8 @@ enum {
 static void check_size(const Encoded *encoded, int64_t width, int64_t height) {
     const Field *field = &encoded->field;
     if (width > SIDE_MOST || height > SIDE_MOST)
-        fail("%s: of a light field of %dx%dx%dx%d it does not fit in a texture", encoded->codec->name, field->u, field->v,
-             field->s, field->t);
+        fail("%s: of a light field of %dx%dx%dx%d it does not fit in a texture", encoded->codec->name,
+             field->u, field->v, field->s, field->t);
 }
 
 /* A picture of blocks: a plane's rows. */
@@ -52,7 +52,8 @@ static Texture leaves_texture(const Plane *leaves) {
     return texture_packed(LEAVES_ACROSS, (int)rows, PACKED_U32X4, leaves->data, leaves->bytes);
 }
 
-/* Each entry with those of the next blocks along s, along t, and along both: what four texels need is one fetch. */
+/* Each entry with those of the next blocks along s, along t, and along both: what four texels need is one
+ * fetch. */
 static Texture table_texture(const Encoded *encoded) {
     Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
     int64_t width = (int64_t)blocks.u * blocks.s, height = (int64_t)blocks.v * blocks.t;

@@ -67,8 +67,8 @@ typedef struct {
     bool verify;
 } Wishes;
 
-/* The most that was ever in memory, by Linux's own account of this program alone: getrusage goes on counting from
- * the one that started it. */
+/* The most that was ever in memory, by Linux's own account of this program alone: getrusage goes on counting
+ * from the one that started it. */
 static double most_memory_mib(void) {
     double kib = 0.0;
     char line[256];
