@@ -39,8 +39,8 @@ CASE_EQUALS("the last leaf that 26 bits can name: no sign", 0, "", 67108863.0,
 
 CASE_EQUALS("-1 below", 0, "", -1.0, low_half(0x0000ffffu))
 CASE_EQUALS("-1 above", 0, "", -1.0, high_half(0xffff0000u))
-CASE_EQUALS("most below, all bits above", 0, "", 32767.0, low_half(0xffff7fffu))
-CASE_EQUALS("least above, all bits below", 0, "", -32768.0, high_half(0x8000ffffu))
+CASE_EQUALS("most below: all bits above", 0, "", 32767.0, low_half(0xffff7fffu))
+CASE_EQUALS("least above: all bits below", 0, "", -32768.0, high_half(0x8000ffffu))
 CASE_EQUALS("least below", 0, "", -32768.0, low_half(0x00008000u))
 
 // ---- ramp_light: the root is 255 or less, off by 3 u of that after the mix and by what the share is off,
