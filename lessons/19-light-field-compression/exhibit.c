@@ -1,10 +1,12 @@
 #include "exhibit.h"
 
+#include "compare.h"
 #include "encoder.h"
 #include "fail.h"
 #include "field_draw.h"
 #include "files.h"
 #include "shown.h"
+#include "stage.h"
 #include "synthesis.h"
 
 #include <stdio.h>
@@ -225,6 +227,24 @@ static void measure_error(const Shots *shots, Table *table, Exhibit *exhibit, co
                 "texture_psnr_db", close);
 }
 
+/* The picture against that of the texels as they are: what compression alone does to it. */
+static void measure_pictures(const Shots *shots, Table *table) {
+    for (int i = 0; i < shots->count; i++) {
+        const Shot *shot = &shots->shots[i];
+        if (!shots_want(shots, shot->view, "raw_psnr_db")) continue;
+        Frame frame = *shots->frame;
+        frame.technique = &frame.scene->techniques[0], frame.knob = 0.0;
+        frame.view = shot->view, frame.camera = shot->view->camera;
+        Picture raw = picture_create(frame.width, frame.height, false);
+        Difference difference;
+        stage_draw(shots->stage, &frame, &raw);
+        const char *reason = compare(&shot->picture.colour, &raw.colour, &difference, NULL);
+        if (reason) fail("%s: %s", shots->frame->technique->name, reason);
+        table_add(table, shots, shot->view, "raw_psnr_db", difference.psnr_db, "dB");
+        picture_destroy(&raw);
+    }
+}
+
 void exhibit_measure(const Shots *shots, Table *table) {
     Exhibit *exhibit = shots->frame->data;
     const Field *field = &exhibit->header.field;
@@ -235,6 +255,7 @@ void exhibit_measure(const Shots *shots, Table *table) {
     const Made *made = made_for(exhibit, shots->frame);
     measure_rate(shots, table, field, (double)made->encoder.bytes);
     measure_error(shots, table, exhibit, made);
+    if (!exhibit->path || exhibit->header.codec == FIELD_RAW) measure_pictures(shots, table);
     if (made->encoder.peak_memory_mib <= 0.0) return; /* a user's file */
     table_add(table, shots, NULL, "encode_seconds", made->encoder.seconds, "s");
     table_add(table, shots, NULL, "peak_memory_mib", made->encoder.peak_memory_mib, "MiB");
