@@ -14,10 +14,9 @@
  * shader one multiplication. */
 
 enum { BLOCK_U = 8, BLOCK_V = 8, BLOCK_S = 2, BLOCK_T = 2, TEXELS = BLOCK_U * BLOCK_V * BLOCK_S * BLOCK_T };
-enum { LEAVES_MOST = 64, LEAF_WORDS = 4, LEAF_BYTES = 16, SPLIT_BITS = 6, BASE_BITS = 26 };
+enum { LEAVES_MOST = 64, LEAF_WORDS = 3, LEAF_BYTES = RAMP_LEAF_BYTES, SPLIT_BITS = 6, BASE_BITS = 26 };
 static const int block_shift[4] = {3, 3, 1, 1};
-#define SLOPE_SCALE 4096.0f
-#define LEVEL_SCALE 1024.0f
+enum { COLOUR_MOST = 127, SLOPE_MOST = 511, LEVEL_MOST = 1023, SCALES = 8 };
 
 /* ---- A leaf: two colours, and a ramp between them ---- */
 
@@ -32,35 +31,43 @@ static int rounded(float value, int most) {
     return nearest < (float)-most ? -most : nearest > (float)most ? most : (int)nearest;
 }
 
-/* A ramp too steep, or too far from 0, is made less steep, around where it is 1/2. */
+/* Slopes are in 512ths of a scale, 1/16 to 8, the least that holds them all; and the level, from 1/2, in
+ * 64ths: where the ramp is 1/2 anywhere in a leaf of 8 x 8 x 2 x 2 texels, it is within 16 of its scales of
+ * that at the lowest one. So what is kept of where an edge lies does not depend on how steep it is. A ramp
+ * beyond the largest scale is made less steep, around where it is 1/2. */
 static void leaf_write(const Ramp *ramp, uint32_t leaf[LEAF_WORDS]) {
-    float most = 1.0f;
-    for (int i = 0; i < 4; i++) most = fmaxf(most, fabsf(ramp->slope[i]) * SLOPE_SCALE / 32767.0f);
-    most = fmaxf(most, fabsf(ramp->level - 0.5f) * LEVEL_SCALE / 32000.0f);
-    uint32_t slope[4], colour[2] = {0, 0};
+    float needed = fabsf(ramp->level - 0.5f) * (64.0f / LEVEL_MOST), scale = 0.0625f, shrink;
+    for (int i = 0; i < 4; i++) needed = fmaxf(needed, fabsf(ramp->slope[i]) * (512.0f / SLOPE_MOST));
+    uint32_t number = 0, slope[4], colour[2] = {0, 0};
+    for (; scale < needed && number < SCALES - 1; number++) scale *= 2.0f;
+    shrink = needed > scale ? scale / needed : 1.0f;
     for (int i = 0; i < 4; i++)
-        slope[i] = (uint32_t)rounded(ramp->slope[i] / most * SLOPE_SCALE, 32767) & 0xffff;
-    uint32_t level = (uint32_t)rounded((0.5f + (ramp->level - 0.5f) / most) * LEVEL_SCALE, 32767);
+        slope[i] = (uint32_t)rounded(ramp->slope[i] * shrink / scale * 512.0f, SLOPE_MOST) & 0x3ff;
+    uint32_t level = (uint32_t)rounded((ramp->level - 0.5f) * shrink / scale * 64.0f, LEVEL_MOST);
     for (int k = 0; k < 3; k++) {
-        colour[0] |= (uint32_t)rounded(ramp->a[k] * 255.0f, 255) << 8 * k;
-        colour[1] |= (uint32_t)rounded(ramp->b[k] * 255.0f, 255) << 8 * k;
+        colour[0] |= (uint32_t)rounded(ramp->a[k] * COLOUR_MOST, COLOUR_MOST) << 7 * k;
+        colour[1] |= (uint32_t)rounded(ramp->b[k] * COLOUR_MOST, COLOUR_MOST) << 7 * k;
     }
-    leaf[0] = colour[0] | (level & 0xff) << 24;
-    leaf[1] = colour[1] | (level >> 8 & 0xff) << 24;
-    leaf[2] = slope[0] | slope[1] << 16;
-    leaf[3] = slope[2] | slope[3] << 16;
+    leaf[0] = colour[0] | level << 21;
+    leaf[1] = colour[1] | slope[3] << 21 | number >> 2 << 31;
+    leaf[2] = slope[0] | slope[1] << 10 | slope[2] << 20 | number << 30;
 }
 
-static float signed_half(uint32_t bits) { return (float)(int16_t)(uint16_t)bits; }
+/* `bits` bits of a word, from bit `from` on, in two's complement. */
+static float signed_bits(uint32_t word, int from, int bits) {
+    return (float)((int32_t)(word << (32 - from - bits)) >> (32 - bits));
+}
 
 static Ramp leaf_read(const uint32_t leaf[LEAF_WORDS]) {
     Ramp ramp;
+    float scale = (float)(1u << (leaf[2] >> 30 | leaf[1] >> 31 << 2)) / 16.0f;
     for (int k = 0; k < 3; k++) {
-        ramp.a[k] = (float)(leaf[0] >> 8 * k & 0xff) / 255.0f;
-        ramp.b[k] = (float)(leaf[1] >> 8 * k & 0xff) / 255.0f;
+        ramp.a[k] = (float)(leaf[0] >> 7 * k & COLOUR_MOST) / COLOUR_MOST;
+        ramp.b[k] = (float)(leaf[1] >> 7 * k & COLOUR_MOST) / COLOUR_MOST;
     }
-    ramp.level = signed_half(leaf[1] >> 24 << 8 | leaf[0] >> 24) / LEVEL_SCALE;
-    for (int i = 0; i < 4; i++) ramp.slope[i] = signed_half(leaf[2 + i / 2] >> 16 * (i % 2)) / SLOPE_SCALE;
+    ramp.level = 0.5f + signed_bits(leaf[0], 21, 11) * scale / 64.0f;
+    for (int i = 0; i < 3; i++) ramp.slope[i] = signed_bits(leaf[2], 10 * i, 10) * scale / 512.0f;
+    ramp.slope[3] = signed_bits(leaf[1], 21, 10) * scale / 512.0f;
     return ramp;
 }
 

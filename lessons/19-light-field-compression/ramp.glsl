@@ -18,23 +18,23 @@ RampPlace ramp_place(uint entry, ivec4 at) {
     return RampPlace(int(entry >> 6u) + number, within & ((ivec4(1) << size) - 1));
 }
 
-// Sixteen bits as a number from -32768 on: the lower half, and the upper.
-float low_half(uint bits) { return float(int(bits << 16u) >> 16); }
-float high_half(uint bits) { return float(int(bits) >> 16); }
+// Ten bits of a word as a number from -512 on; above: how many bits are above them.
+float ten_bits(uint word, uint above) { return float(int(word << above) >> 22); }
 
-// Colours are 255 roots of light, the ramp is in units of 1/1024, its slopes in 1/4096.
-vec3 ramp_light(uvec4 leaf, ivec4 within) {
-    vec3 a = vec3(leaf.x & 255u, leaf.x >> 8u & 255u, leaf.x >> 16u & 255u);
-    vec3 b = vec3(leaf.y & 255u, leaf.y >> 8u & 255u, leaf.y >> 16u & 255u);
-    float level = float((int(leaf.y) >> 24) * 256 + int(leaf.x >> 24u));
-    vec4 slope = vec4(low_half(leaf.z), high_half(leaf.z), low_half(leaf.w), high_half(leaf.w));
-    vec3 root = mix(a, b, clamp(level * (1.0 / 1024.0) + dot(slope, vec4(within)) * (1.0 / 4096.0), 0.0, 1.0));
-    return root * root * (1.0 / 65025.0);
+// Colours are 127 roots of light; the ramp is in units of its own scale.
+vec3 ramp_light(uvec3 leaf, ivec4 within) {
+    vec3 a = vec3(leaf.x & 127u, leaf.x >> 7u & 127u, leaf.x >> 14u & 127u);
+    vec3 b = vec3(leaf.y & 127u, leaf.y >> 7u & 127u, leaf.y >> 14u & 127u);
+    float scale = float(1u << (leaf.z >> 30u | leaf.y >> 31u << 2u)) * (1.0 / 16.0 / 512.0);
+    float level = float(int(leaf.x) >> 21);
+    vec4 slope = vec4(ten_bits(leaf.z, 22u), ten_bits(leaf.z, 12u), ten_bits(leaf.z, 2u), ten_bits(leaf.y, 1u));
+    vec3 root = mix(a, b, clamp(0.5 + scale * (8.0 * level + dot(slope, vec4(within))), 0.0, 1.0));
+    return root * root * (1.0 / 16129.0);
 }
 
 vec3 ramp_texel(usampler2D leaves, uint entry, ivec4 at) {
     RampPlace place = ramp_place(entry, at);
-    return ramp_light(texelFetch(leaves, in_rows(place.leaf, RAMP_LEAVES), 0), place.within);
+    return ramp_light(texelFetch(leaves, in_rows(place.leaf, RAMP_LEAVES), 0).rgb, place.within);
 }
 
 // Four texels, at and one further along s, along t, and along both, mixed by part. Their blocks are one, or two, or

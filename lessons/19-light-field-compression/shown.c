@@ -1,6 +1,7 @@
 #include "shown.h"
 
 #include "fail.h"
+#include "ramp.h"
 #include "vq.h"
 
 #include <stdlib.h>
@@ -10,7 +11,7 @@ enum {
     SIDE_MOST = 16384,
     BOOK_ACROSS = 128,
     LEAVES_ACROSS = 4096,
-    LEAF_BYTES = 16
+    LEAF_WIDE = 16
 }; /* as in vq.glsl, ramp.glsl */
 
 static void check_size(const Encoded *encoded, int64_t width, int64_t height) {
@@ -45,11 +46,16 @@ static Texture book_texture(const Plane *book) {
     return texture;
 }
 
+/* Leaves are three words, and four here: a texture of three is slower to read. */
 static Texture leaves_texture(const Plane *leaves) {
-    size_t count = leaves->bytes / LEAF_BYTES;
-    size_t rows = (count + LEAVES_ACROSS - 1) / LEAVES_ACROSS;
+    size_t count = leaves->bytes / RAMP_LEAF_BYTES, rows = (count + LEAVES_ACROSS - 1) / LEAVES_ACROSS;
     if (rows > SIDE_MOST) fail("%zu leaves do not fit in a texture", count);
-    return texture_packed(LEAVES_ACROSS, (int)rows, PACKED_U32X4, leaves->data, leaves->bytes);
+    uint8_t *wide = allocate(count, LEAF_WIDE);
+    for (size_t i = 0; i < count; i++)
+        memcpy(wide + LEAF_WIDE * i, leaves->data + RAMP_LEAF_BYTES * i, RAMP_LEAF_BYTES);
+    Texture texture = texture_packed(LEAVES_ACROSS, (int)rows, PACKED_U32X4, wide, LEAF_WIDE * count);
+    free(wide);
+    return texture;
 }
 
 /* Each entry with those of the next blocks along s, along t, and along both: what four texels need is one

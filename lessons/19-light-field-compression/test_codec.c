@@ -9,6 +9,7 @@
 #include "fail.h"
 #include "files.h"
 #include "image.h"
+#include "ramp.h"
 #include "shown.h"
 #include "synthesis.h"
 #include "vq.h"
@@ -144,10 +145,10 @@ static void black_stays_black(void **state) {
     check_worst(black, (const double[]){0, 0, 0, 0});
 }
 
-/* bc1 has 5 bits of red, and is within half a step; a root of 1/255 is up to 1.4 codes. */
+/* bc1 has 5 bits of red, and is within half a step; a root of 1/127 is up to 2.5 codes. */
 static void one_colour_stays(void **state) {
     (void)state;
-    check_worst(one_colour, (const double[]){3, 1.01, 0.01, 0.75});
+    check_worst(one_colour, (const double[]){3, 1.01, 0.01, 1.3});
 }
 
 static void noise_is_bounded(void **state) {
@@ -159,7 +160,7 @@ static void noise_is_bounded(void **state) {
  * more. */
 static void blocks_keep_their_colours(void **state) {
     (void)state;
-    check_worst(patches, (const double[]){5, 1.01, 0.01, 0.75});
+    check_worst(patches, (const double[]){5, 1.01, 0.01, 1.3});
 }
 
 /* Two colours in a block, one of them at a corner: ramps as steep as that, and every code's order. */
@@ -173,8 +174,9 @@ static void a_plane_is_one_leaf(void **state) {
     Field field = field_of(16, 8, 8, 8);
     uint8_t *texels = field_fill(&field, plane);
     Encoded encoded = encode(&codec_ramp, 8, &field, texels);
-    assert_true(worst(&encoded, texels) < 1.8);
-    for (size_t i = 0; i < encoded.planes[0].bytes; i += 4) assert_int_equal(encoded.planes[0].data[i] & 63, 0);
+    assert_true(worst(&encoded, texels) < 2.6);
+    for (size_t i = 0; i < encoded.planes[0].bytes; i += 4)
+        assert_int_equal(encoded.planes[0].data[i] & 63, 0);
     encoded_destroy(&encoded);
     free(texels);
 }
@@ -207,10 +209,10 @@ static void equal_blocks_share(void **state) {
     Field small = field_of(8, 8, 8, 8);
     uint8_t *fewer = field_fill(&small, corners);
     Encoded encoded = encode(&codec_ramp, 4, &field, texels), one = encode(&codec_ramp, 4, &small, fewer);
-    size_t of_block = one.planes[1].bytes - 16;
-    assert_in_range(of_block, 16, 64);
+    size_t of_block = one.planes[1].bytes - RAMP_LEAF_BYTES;
+    assert_in_range(of_block, RAMP_LEAF_BYTES, 4 * RAMP_LEAF_BYTES);
     free(fewer);
-    assert_int_equal(encoded.planes[1].bytes, 16 + 2 * of_block);
+    assert_int_equal(encoded.planes[1].bytes, RAMP_LEAF_BYTES + 2 * of_block);
     encoded_destroy(&encoded), encoded_destroy(&one);
     free(texels);
 }
@@ -423,8 +425,9 @@ static const char *const readers[CODECS] = {
     "vec3 texel(ivec4 at) { return ramp_four(table, leaves, at - ivec4(step), step.zw, ivec2(across.zw)); "
     "}\n"};
 
-/* By OpenGL the texel that is a step along s and t from the one where a shader begins, for all of which that one is in
- * the field. OSMesa decodes sRGB by a polynomial, 0.4 codes off at most, and of bc1's thirds it takes the whole part. */
+/* By OpenGL the texel that is a step along s and t from the one where a shader begins, for all of which that
+ * one is in the field. OSMesa decodes sRGB by a polynomial, 0.4 codes off at most, and of bc1's thirds it
+ * takes the whole part. */
 static void compare_shader(int c, Program *program, const Encoded *encoded, const int step[2]) {
     const Field *field = &encoded->field;
     int count = field->u * field->v * field->s * field->t, height = (count + 127) / 128;
@@ -652,7 +655,7 @@ static void broken_files_are_told(void **state) {
             memset(payload, 0xff, 4);
             write_changed(bad, &file, file.header, 0, 0, payload, length);
             assert_string_equal(tried(bad), "broken: it refers to what is not there");
-            uint32_t last = (uint32_t)file.sections[1].length / 16, entry = last << 6;
+            uint32_t last = (uint32_t)file.sections[1].length / RAMP_LEAF_BYTES, entry = last << 6;
             memcpy(payload, &entry, 4);
             write_changed(bad, &file, file.header, 0, 0, payload, length);
             assert_string_equal(tried(bad), "broken: it refers to what is not there");
