@@ -33,32 +33,45 @@ CASE_EQUALS("v alone in four", 0, "", 8, ramp_place(0x148u, ivec4(7, 6, 0, 0)).l
 CASE_EQUALS("the last leaf that 26 bits can name: no sign", 0, "", 1,
             ramp_place(0xffffffc0u, ivec4(0)).leaf - 67108862)
 
-// ---- low_half, high_half: two's complement
+// ---- ten_bits: two's complement
 
-CASE_EQUALS("-1 below", 0, "", -1.0, low_half(0x0000ffffu))
-CASE_EQUALS("-1 above", 0, "", -1.0, high_half(0xffff0000u))
-CASE_EQUALS("most below: all bits above", 0, "", 32767.0, low_half(0xffff7fffu))
-CASE_EQUALS("least above: all bits below", 0, "", -32768.0, high_half(0x8000ffffu))
-CASE_EQUALS("least below", 0, "", -32768.0, low_half(0x00008000u))
+CASE_EQUALS("-1 in the lowest", 0, "", -1.0, ten_bits(0x000003ffu, 22u))
+CASE_EQUALS("-1 in the middle", 0, "", -1.0, ten_bits(0x000ffc00u, 12u))
+CASE_EQUALS("the most: all bits around", 0, "", 511.0, ten_bits(0xdffffffeu, 2u))
+CASE_EQUALS("the least: no bits around", 0, "", -512.0, ten_bits(0x20000000u, 2u))
+CASE_EQUALS("below the highest bit", 0, "", -1.0, ten_bits(0x7fe00000u, 1u))
 
-// ---- ramp_light: the root is 255 or less, off by 3 u of that after the mix and by what the share is off,
-// which is of numbers up to 40: 40 * 4 u; a square doubles it. Cases whose share is a whole number have the
-// end's colour.
+// ---- ramp_light: the root is 127 or less, off by 3 u of that after the mix and by what the share is off, which is of
+// numbers up to 256: 256 * 3 u; a square doubles it. Cases whose share is a whole number have the end's colour.
 
-CASE_EQUALS("first colour", 6 * 0x1p-24, "linear", vec3(1.0, 0.0, 0.251964629),
-            ramp_light(uvec4(0x8000ffu, 0x00ff00u, 0u, 0u), ivec4(7, 7, 1, 1)))
-CASE_EQUALS("second colour: a level of 1", 6 * 0x1p-24, "linear", vec3(0.0, 1.0, 0.251964629),
-            ramp_light(uvec4(0x0000ffu, 0x0480ff00u, 0u, 0u), ivec4(7, 7, 1, 1)))
-CASE_EQUALS("cut off above", 6 * 0x1p-24, "linear", vec3(1.0),
-            ramp_light(uvec4(0x000000u, 0x7fffffffu, 0x7fff7fffu, 0x7fff7fffu), ivec4(7, 7, 1, 1)))
-CASE_EQUALS("cut off below: a level of -32", 0, "linear", vec3(0.0),
-            ramp_light(uvec4(0x000000u, 0x80ffffffu, 0u, 0u), ivec4(0)))
-CASE("a slope along each axis", 2 * 40 * 4 * 0x1p-24, "linear",
-     ramp_light(uvec4(0x00102030u, 0x01ffe0d0u, 0x0123fed4u, 0xfc180345u), ivec4(3, 2, 1, 1)))
-CASE("steep: what is left of two that all but cancel", 2 * 40 * 4 * 0x1p-24, "linear",
-     ramp_light(uvec4(0x9a000000u, 0xe0ffffffu, 0x00004000u, 0x00001000u), ivec4(2, 0, 0, 0)))
-CASE_EQUALS("half way is a quarter of the light", 2 * 40 * 4 * 0x1p-24, "linear", vec3(0.25),
-            ramp_light(uvec4(0x00000000u, 0x02ffffffu, 0u, 0u), ivec4(1)))
+CASE_EQUALS("first colour: cut off below", 6 * 0x1p-24, "linear", vec3(1.0, 0.0, 0.253952508),
+            ramp_light(uvec3(0x8030007fu, 0x80000000u, 0xc0000000u), ivec4(7, 7, 1, 1)))
+CASE_EQUALS("second colour: a share of 1", 6 * 0x1p-24, "linear", vec3(0.0, 1.0, 0.253952508),
+            ramp_light(uvec3(0x4000007fu, 0x00103f80u, 0u), ivec4(7, 7, 1, 1)))
+CASE_EQUALS("cut off above: the steepest", 6 * 0x1p-24, "linear", vec3(1.0, 1.0, 1.0),
+            ramp_light(uvec3(0x7fe00000u, 0xbfffffffu, 0xdff7fdffu), ivec4(7, 7, 1, 1)))
+CASE_EQUALS("half way is a quarter of the light", 6 * 0x1p-24, "linear", vec3(0.25, 0.25, 0.25),
+            ramp_light(uvec3(0u, 0x001fffffu, 0u), ivec4(7, 7, 1, 1)))
+CASE_EQUALS("up along u: the next texel", 6 * 0x1p-24, "linear", vec3(1.0, 1.0, 1.0),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x00000100u), ivec4(1, 0, 0, 0)))
+CASE_EQUALS("up along u and no other axis", 6 * 0x1p-24, "linear", vec3(0.25, 0.25, 0.25),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x00000100u), ivec4(0, 7, 1, 1)))
+CASE_EQUALS("up along v: the next texel", 6 * 0x1p-24, "linear", vec3(1.0, 1.0, 1.0),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x00040000u), ivec4(0, 1, 0, 0)))
+CASE_EQUALS("up along v and no other axis", 6 * 0x1p-24, "linear", vec3(0.25, 0.25, 0.25),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x00040000u), ivec4(7, 0, 1, 1)))
+CASE_EQUALS("up along s: the next texel", 6 * 0x1p-24, "linear", vec3(1.0, 1.0, 1.0),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x10000000u), ivec4(0, 0, 1, 0)))
+CASE_EQUALS("up along s and no other axis", 6 * 0x1p-24, "linear", vec3(0.25, 0.25, 0.25),
+            ramp_light(uvec3(0u, 0x801fffffu, 0x10000000u), ivec4(7, 7, 0, 1)))
+CASE_EQUALS("up along t: the next texel", 6 * 0x1p-24, "linear", vec3(1.0, 1.0, 1.0),
+            ramp_light(uvec3(0u, 0xa01fffffu, 0u), ivec4(0, 0, 0, 1)))
+CASE_EQUALS("up along t and no other axis", 6 * 0x1p-24, "linear", vec3(0.25, 0.25, 0.25),
+            ramp_light(uvec3(0u, 0xa01fffffu, 0u), ivec4(7, 7, 1, 0)))
+CASE("a slope along each axis", 2 * 256 * 3 * 0x1p-24, "linear",
+     ramp_light(uvec3(0x01e12345u, 0x8ed9abcdu, 0x31f0c86fu), ivec4(3, 2, 1, 1)))
+CASE("steep: what is left of two that all but cancel", 2 * 256 * 3 * 0x1p-24, "linear",
+     ramp_light(uvec3(0xf2000000u, 0x801fffffu, 0xc00000ffu), ivec4(7, 0, 0, 0)))
 
 // ---- vq_light: a code from one block's place, a texel from that code's patch
 
@@ -77,19 +90,19 @@ CASE_NUMBERS(blocks, 6, 4, uvec4(uint(4 * (6 * y + x)) << 6u, uint(4 * (6 * y + 
                                 uint(4 * (6 * y + x) + 2) << 6u, uint(4 * (6 * y + x) + 3) << 6u))
 CASE_NUMBERS(leaves, 128, 1, uvec4(uint(x), uint(x), 0u, 0u))
 
-CASE_EQUALS("a texel of leaf 101", 4 * 0x1p-24, "linear", vec3(0.156878125, 0.0, 0.0),
+CASE_EQUALS("a texel of leaf 101", 6 * 0x1p-24, "linear", vec3(0.632463265, 0.0, 0.0),
             ramp_texel(leaves, 0x1940u, ivec4(7, 7, 1, 1)))
-CASE_EQUALS("four of one block: the last", 4 * 0x1p-24, "linear", vec3(0.012056901, 0.0, 0.0),
+CASE_EQUALS("four of one block: the last", 6 * 0x1p-24, "linear", vec3(0.048608097, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 2, 2), vec2(1.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("four of four blocks: the first", 4 * 0x1p-24, "linear", vec3(0.012056901, 0.0, 0.0),
+CASE_EQUALS("four of four blocks: the first", 6 * 0x1p-24, "linear", vec3(0.048608097, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(0.0, 0.0), ivec2(3, 2)))
-CASE_EQUALS("four of four blocks: next along s", 4 * 0x1p-24, "linear", vec3(0.012933487, 0.0, 0.0),
+CASE_EQUALS("four of four blocks: next along s", 6 * 0x1p-24, "linear", vec3(0.052142104, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(1.0, 0.0), ivec2(3, 2)))
-CASE_EQUALS("four of four blocks: next along t", 4 * 0x1p-24, "linear", vec3(0.013840830, 0.0, 0.0),
+CASE_EQUALS("four of four blocks: next along t", 6 * 0x1p-24, "linear", vec3(0.055800112, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(0.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("four of four blocks: next along both", 4 * 0x1p-24, "linear", vec3(0.014778931, 0.0, 0.0),
+CASE_EQUALS("four of four blocks: next along both", 6 * 0x1p-24, "linear", vec3(0.059582119, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(1.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("two blocks along s: next along t is the same", 4 * 0x1p-24, "linear", vec3(0.012056901, 0.0, 0.0),
+CASE_EQUALS("two blocks along s: next along t is the same", 6 * 0x1p-24, "linear", vec3(0.048608097, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 2), vec2(0.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("two blocks along t: next along both is next along t", 4 * 0x1p-24, "linear", vec3(0.013840830, 0.0, 0.0),
+CASE_EQUALS("two blocks along t: next along both is next along t", 6 * 0x1p-24, "linear", vec3(0.055800112, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 2, 3), vec2(1.0, 1.0), ivec2(3, 2)))
