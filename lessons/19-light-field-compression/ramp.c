@@ -89,6 +89,7 @@ typedef struct {
 } Part;
 
 enum { UNKNOWNS = 5, SUMS = UNKNOWNS * (UNKNOWNS + 1) / 2 + UNKNOWNS, STEPS = 6, TURNS = 2 };
+static const double SETTLED = 1e-3; /* of a plane, and of its slopes a texel */
 
 static double apart(const Part *part, int i, const float colour[3]) {
     double sum = 0.0;
@@ -162,56 +163,57 @@ WIDE static void sum_plane(const Part *part, const Ramp *ramp, float sums[SUMS])
             total[SUMS - UNKNOWNS + a] += weighted * target;
         }
     }
+    float lanes[SUMS][LANES];
+    memcpy(lanes, total, sizeof lanes);
     for (int n = 0; n < SUMS; n++) {
-        sums[n] = 0.0f;
-        for (int lane = 0; lane < LANES; lane++) sums[n] += total[n][lane];
+        for (int half = LANES / 2; half > 0; half /= 2)
+            for (int lane = 0; lane < half; lane++) lanes[n][lane] += lanes[n][lane + half];
+        sums[n] = lanes[n][0];
     }
 }
 
-/* Gauss-Jordan with pivots; the solution is the last column. */
-static void solve(double m[UNKNOWNS][UNKNOWNS + 1]) {
+/* Solves m x = right for a symmetric positive definite m, of which the upper half is read, as L D L^T. */
+static void solve(double m[UNKNOWNS][UNKNOWNS], const double right[UNKNOWNS], double x[UNKNOWNS]) {
     for (int i = 0; i < UNKNOWNS; i++) {
-        int best = i;
-        for (int row = i + 1; row < UNKNOWNS; row++)
-            if (fabs(m[row][i]) > fabs(m[best][i])) best = row;
-        for (int k = 0; k <= UNKNOWNS; k++) {
-            double swap = m[i][k];
-            m[i][k] = m[best][k], m[best][k] = swap;
-        }
-        for (int row = 0; row < UNKNOWNS; row++) {
-            if (row == i) continue;
-            double factor = m[row][i] / m[i][i];
-            for (int k = i; k <= UNKNOWNS; k++) m[row][k] -= factor * m[i][k];
+        x[i] = right[i];
+        for (int row = i + 1; row < UNKNOWNS; row++) {
+            m[row][i] = m[i][row] / m[i][i];
+            for (int k = row; k < UNKNOWNS; k++) m[row][k] -= m[row][i] * m[i][k];
         }
     }
-    for (int i = 0; i < UNKNOWNS; i++) m[i][UNKNOWNS] /= m[i][i];
+    for (int i = 0; i < UNKNOWNS; i++)
+        for (int k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
+    for (int i = UNKNOWNS - 1; i >= 0; i--) {
+        x[i] /= m[i][i];
+        for (int k = i + 1; k < UNKNOWNS; k++) x[i] -= m[k][i] * x[k];
+    }
 }
 
 /* Least squares of a plane that is cut off at 0 and 1, by Newton's steps: each solves for the texels that the
  * last left between, or on the wrong side. What they do not determine (a leaf one texel wide) stays as it is.
  */
 static void fit_plane(const Part *part, Ramp *ramp, bool first) {
-    for (int step = 0; step < STEPS; step++) {
+    double moved = INFINITY;
+    for (int step = 0; step < STEPS && moved > SETTLED; step++) {
         bool all = first && step == 0;
         float sums[SUMS];
         sum_plane(part, all ? NULL : ramp, sums);
         if (sums[0] <= 0.0f) return;
-        double m[UNKNOWNS][UNKNOWNS + 1];
-        const double now[UNKNOWNS] = {ramp->level, ramp->slope[0], ramp->slope[1], ramp->slope[2],
-                                      ramp->slope[3]};
+        double m[UNKNOWNS][UNKNOWNS], right[UNKNOWNS], next[UNKNOWNS];
+        double now[UNKNOWNS] = {ramp->level, ramp->slope[0], ramp->slope[1], ramp->slope[2], ramp->slope[3]};
         int n = 0;
-        for (int a = 0; a < UNKNOWNS; a++) {
-            for (int b = a; b < UNKNOWNS; b++) m[a][b] = m[b][a] = sums[n++];
-            m[a][UNKNOWNS] = sums[SUMS - UNKNOWNS + a];
-        }
+        for (int a = 0; a < UNKNOWNS; a++)
+            for (int b = a; b < UNKNOWNS; b++) m[a][b] = sums[n++];
         for (int a = 0; a < UNKNOWNS; a++) {
             double keep = 1e-5 * m[a][a] + 1e-6 * sums[0];
             m[a][a] += keep;
-            m[a][UNKNOWNS] += all ? 0.0 : keep * now[a];
+            right[a] = sums[SUMS - UNKNOWNS + a] + (all ? 0.0 : keep * now[a]);
         }
-        solve(m);
-        ramp->level = (float)m[0][UNKNOWNS];
-        for (int k = 0; k < 4; k++) ramp->slope[k] = (float)m[1 + k][UNKNOWNS];
+        solve(m, right, next);
+        moved = 0.0;
+        for (int a = 0; a < UNKNOWNS; a++) moved = fmax(moved, fabs(next[a] - now[a]));
+        ramp->level = (float)next[0];
+        for (int k = 0; k < 4; k++) ramp->slope[k] = (float)next[1 + k];
     }
 }
 
