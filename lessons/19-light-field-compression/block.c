@@ -155,11 +155,11 @@ void bc1_encode(const uint8_t patch[PATCH_BYTES], uint8_t block[BC1_BYTES]) {
     for (int i = 0; i < TEXELS; i++) block[4 + i / 4] |= (uint8_t)(best.chosen[i] << 2 * (i % 4));
 }
 
-void bc1_decode(const uint8_t block[BC1_BYTES], uint8_t patch[PATCH_BYTES]) {
+void bc1_decode(const uint8_t block[BC1_BYTES], int texel, uint8_t colour[3]) {
     uint8_t palette[4][3];
     const int colours[2] = {block[0] | block[1] << 8, block[2] | block[3] << 8};
     bc1_palette(colours, palette);
-    for (int i = 0; i < TEXELS; i++) memcpy(patch + 3 * i, palette[block[4 + i / 4] >> 2 * (i % 4) & 3], 3);
+    memcpy(colour, palette[block[4 + texel / 4] >> 2 * (texel % 4) & 3], 3);
 }
 
 /* ---- bc7, mode 6 ---- */
@@ -171,12 +171,12 @@ typedef struct {
     uint8_t chosen[TEXELS];
 } Bc7;
 
-static void bc7_palette(const Bc7 *bc7, uint8_t palette[PLACES_MOST][3]) {
-    for (int n = 0; n < PLACES_MOST; n++)
-        for (int k = 0; k < 3; k++) {
-            int a = bc7->end[0][k] << 1 | bc7->low[0], b = bc7->end[1][k] << 1 | bc7->low[1];
-            palette[n][k] = (uint8_t)(((64 - bc7_weights[n]) * a + bc7_weights[n] * b + 32) >> 6);
-        }
+static void bc7_colour(const Bc7 *bc7, int place, uint8_t colour[3]) {
+    int weight = bc7_weights[place];
+    for (int k = 0; k < 3; k++) {
+        int a = bc7->end[0][k] << 1 | bc7->low[0], b = bc7->end[1][k] << 1 | bc7->low[1];
+        colour[k] = (uint8_t)(((64 - weight) * a + weight * b + 32) >> 6);
+    }
 }
 
 static void bits_put(uint8_t *bytes, int *at, int count, int value) {
@@ -203,7 +203,7 @@ void bc7_encode(const uint8_t patch[PATCH_BYTES], uint8_t block[BC7_BYTES]) {
                     long value = lrint((line.end[e][k] - tried.low[e]) / 2.0);
                     tried.end[e][k] = (int)(value < 0 ? 0 : value > 127 ? 127 : value);
                 }
-            bc7_palette(&tried, palette);
+            for (int n = 0; n < PLACES_MOST; n++) bc7_colour(&tried, n, palette[n]);
             tried.error = choose(patch, palette, PLACES_MOST, tried.chosen);
             if (tried.error < best.error) best = tried;
             fit_line(patch, tried.chosen, shares, &line);
@@ -221,17 +221,16 @@ void bc7_encode(const uint8_t patch[PATCH_BYTES], uint8_t block[BC7_BYTES]) {
         bits_put(block, &at, i ? 4 : 3, first ? PLACES_MOST - 1 - best.chosen[i] : best.chosen[i]);
 }
 
-bool bc7_decode(const uint8_t block[BC7_BYTES], uint8_t patch[PATCH_BYTES]) {
+bool bc7_decode(const uint8_t block[BC7_BYTES], int texel, uint8_t colour[3]) {
     Bc7 bc7;
-    uint8_t palette[PLACES_MOST][3];
     int at = 0;
     if (bits_get(block, &at, 7) != 1 << 6) return false;
     for (int k = 0; k < 3; k++)
         for (int e = 0; e < 2; e++) bc7.end[e][k] = bits_get(block, &at, 7);
     at += 14;
     for (int e = 0; e < 2; e++) bc7.low[e] = bits_get(block, &at, 1);
-    bc7_palette(&bc7, palette);
-    for (int i = 0; i < TEXELS; i++) memcpy(patch + 3 * i, palette[bits_get(block, &at, i ? 4 : 3)], 3);
+    at += texel ? 4 * texel - 1 : 0;
+    bc7_colour(&bc7, bits_get(block, &at, texel ? 4 : 3), colour);
     return true;
 }
 
@@ -268,28 +267,28 @@ static void encode_column(void *context, int u) {
 
 static void block_encode(Encoded *encoded, int band, int rows, const uint8_t *texels) {
     (void)band;
-    Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
+    Blocks blocks = encoded->blocks;
     size_t bytes = (size_t)bytes_of(encoded->codec) * (size_t)blocks.u * (size_t)blocks.s * (size_t)blocks.t;
     BandJob job = {encoded, texels, rows, blocks, plane_extend(&encoded->planes[0], bytes)};
     parallel_for(blocks.u, encode_column, &job);
 }
 
 static void block_decode(const Encoded *encoded, const int at[4], float *light) {
-    Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
+    Blocks blocks = encoded->blocks;
     size_t number = block_number(&blocks, at[0] / PATCH_SIDE, at[1] / PATCH_SIDE, at[2], at[3]);
     const uint8_t *block = plane_at(&encoded->planes[0], (size_t)bytes_of(encoded->codec) * number);
-    uint8_t patch[PATCH_BYTES] = {0};
+    int texel = at[1] % PATCH_SIDE * PATCH_SIDE + at[0] % PATCH_SIDE;
+    uint8_t colour[3] = {0};
     if (encoded->codec == &codec_bc1)
-        bc1_decode(block, patch);
+        bc1_decode(block, texel, colour);
     else
-        bc7_decode(block, patch);
-    const uint8_t *texel = patch + FIELD_TEXEL * (at[1] % PATCH_SIDE * PATCH_SIDE + at[0] % PATCH_SIDE);
-    for (int k = 0; k < 3; k++) light[k] = light_of(texel[k]);
+        bc7_decode(block, texel, colour);
+    for (int k = 0; k < 3; k++) light[k] = light_of(colour[k]);
 }
 
 static int64_t block_size(const Encoded *encoded, int plane, int band) {
     (void)plane, (void)band;
-    Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
+    Blocks blocks = encoded->blocks;
     return (int64_t)bytes_of(encoded->codec) * blocks.u * blocks.s * blocks.t;
 }
 

@@ -18,9 +18,9 @@ enum { BC1_BYTES = 8, BC7_BYTES = 16 };
 
 /* patch: 4 x 4 texels, three bytes of sRGB each, row for row. */
 void bc1_encode(const uint8_t patch[48], uint8_t block[BC1_BYTES]);
-void bc1_decode(const uint8_t block[BC1_BYTES], uint8_t patch[48]);
+void bc1_decode(const uint8_t block[BC1_BYTES], int texel, uint8_t colour[3]); /* texel: 0 to 15 */
 void bc7_encode(const uint8_t patch[48], uint8_t block[BC7_BYTES]);
 /* Mode 6 alone; false for a block of another. */
-bool bc7_decode(const uint8_t block[BC7_BYTES], uint8_t patch[48]);
+bool bc7_decode(const uint8_t block[BC7_BYTES], int texel, uint8_t colour[3]);
 
 #endif

@@ -4,7 +4,8 @@
 // ---- block_at, in_rows: the first and the last
 
 CASE_EQUALS("first block", 0, "", ivec2(0, 0), block_at(ivec2(0, 0), ivec2(0, 0), ivec2(16, 16)))
-CASE_EQUALS("last along s and t beside the next u and v", 0, "", ivec2(47, 31), block_at(ivec2(2, 1), ivec2(15, 15), ivec2(16, 16)))
+CASE_EQUALS("last along s and t beside the next u and v", 0, "", ivec2(47, 31),
+            block_at(ivec2(2, 1), ivec2(15, 15), ivec2(16, 16)))
 CASE_EQUALS("one block along s and t", 0, "", ivec2(7, 3), block_at(ivec2(7, 3), ivec2(0, 0), ivec2(1, 1)))
 CASE_EQUALS("last of a row", 0, "", ivec2(4095, 0), in_rows(4095, 12))
 CASE_EQUALS("first of the next row", 0, "", ivec2(0, 1), in_rows(4096, 12))
@@ -13,14 +14,11 @@ CASE_EQUALS("the last leaf that 26 bits can name", 0, "", ivec2(4095, 16383), in
 // ---- ramp_place: entries as ramp.h has them
 
 CASE_EQUALS("black", 0, "", 0, ramp_place(0u, ivec4(511, 255, 31, 31)).leaf)
-CASE_EQUALS("one leaf: its last texel", 0, "", ivec4(7, 7, 1, 1),
-            ramp_place(64u, ivec4(15, 7, 1, 3)).within)
+CASE_EQUALS("one leaf: its last texel", 0, "", ivec4(7, 7, 1, 1), ramp_place(64u, ivec4(15, 7, 1, 3)).within)
 CASE_EQUALS("one leaf: the first texel behind a border on all sides", 0, "", ivec4(0, 0, 0, 0),
             ramp_place(64u, ivec4(8, 16, 2, 30)).within)
-CASE_EQUALS("halved along u alone: the left leaf", 0, "", 5,
-            ramp_place(0x141u, ivec4(3, 7, 1, 1)).leaf)
-CASE_EQUALS("halved along u alone: the right leaf", 0, "", 6,
-            ramp_place(0x141u, ivec4(4, 7, 1, 1)).leaf)
+CASE_EQUALS("halved along u alone: the left leaf", 0, "", 5, ramp_place(0x141u, ivec4(3, 7, 1, 1)).leaf)
+CASE_EQUALS("halved along u alone: the right leaf", 0, "", 6, ramp_place(0x141u, ivec4(4, 7, 1, 1)).leaf)
 CASE_EQUALS("halved along t alone", 0, "", 6, ramp_place(0x160u, ivec4(7, 7, 1, 1)).leaf)
 CASE_EQUALS("halved along s alone: its place goes", 0, "", ivec4(7, 7, 0, 1),
             ramp_place(0x150u, ivec4(7, 7, 1, 1)).within)
@@ -41,8 +39,9 @@ CASE_EQUALS("the most: all bits around", 0, "", 511.0, ten_bits(0xdffffffeu, 2u)
 CASE_EQUALS("the least: no bits around", 0, "", -512.0, ten_bits(0x20000000u, 2u))
 CASE_EQUALS("below the highest bit", 0, "", -1.0, ten_bits(0x7fe00000u, 1u))
 
-// ---- ramp_light: the root is 127 or less, off by 3 u of that after the mix and by what the share is off, which is of
-// numbers up to 256: 256 * 3 u; a square doubles it. Cases whose share is a whole number have the end's colour.
+// ---- ramp_light: the root is 127 or less, off by 3 u of that after the mix and by what the share is off,
+// which is of numbers up to 256: 256 * 3 u; a square doubles it. Cases whose share is a whole number have the
+// end's colour.
 
 CASE_EQUALS("first colour: cut off below", 6 * 0x1p-24, "linear", vec3(1.0, 0.0, 0.253952508),
             ramp_light(uvec3(0x8030007fu, 0x80000000u, 0xc0000000u), ivec4(7, 7, 1, 1)))
@@ -78,16 +77,19 @@ CASE("steep: what is left of two that all but cancel", 2 * 256 * 3 * 0x1p-24, "l
 CASE_NUMBERS(codes, 6, 4, uvec4(uint(6 * y + x + 120), 0u, 0u, 0u))
 CASE_TEXTURE(book, 512, 8, vec4(float(x) / 512.0, float(y) / 8.0, 0.5, 1.0))
 
-CASE_EQUALS("first of a patch", 0, "linear", vec3(0.9375, 0.0, 0.5), vq_light(codes, book, ivec4(0, 0, 0, 0), ivec2(3, 2)))
+CASE_EQUALS("first of a patch", 0, "linear", vec3(0.9375, 0.0, 0.5),
+            vq_light(codes, book, ivec4(0, 0, 0, 0), ivec2(3, 2)))
 CASE_EQUALS("last of a patch", 0, "linear", vec3(0.943359375, 0.375, 0.5),
             vq_light(codes, book, ivec4(3, 3, 0, 0), ivec2(3, 2)))
 CASE_EQUALS("the next row of patches", 0, "linear", vec3(0.009765625, 0.625, 0.5),
             vq_light(codes, book, ivec4(5, 1, 0, 1), ivec2(3, 2)))
 
-// ---- ramp_texel, ramp_four: 8 x 8 x 2 x 2 texels are a block; in entry n of the table (`blocks`) the four are leaves 4n, 4n + 1, ...
+// ---- ramp_texel, ramp_four: 8 x 8 x 2 x 2 texels are a block; in entry n of the table (`blocks`) the four
+// are leaves 4n, 4n + 1, ...
 
-CASE_NUMBERS(blocks, 6, 4, uvec4(uint(4 * (6 * y + x)) << 6u, uint(4 * (6 * y + x) + 1) << 6u,
-                                uint(4 * (6 * y + x) + 2) << 6u, uint(4 * (6 * y + x) + 3) << 6u))
+CASE_NUMBERS(blocks, 6, 4,
+             uvec4(uint(4 * (6 * y + x)) << 6u, uint(4 * (6 * y + x) + 1) << 6u,
+                   uint(4 * (6 * y + x) + 2) << 6u, uint(4 * (6 * y + x) + 3) << 6u))
 CASE_NUMBERS(leaves, 128, 1, uvec4(uint(x), uint(x), 0u, 0u))
 
 CASE_EQUALS("a texel of leaf 101", 6 * 0x1p-24, "linear", vec3(0.632463265, 0.0, 0.0),
@@ -102,7 +104,9 @@ CASE_EQUALS("four of four blocks: next along t", 6 * 0x1p-24, "linear", vec3(0.0
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(0.0, 1.0), ivec2(3, 2)))
 CASE_EQUALS("four of four blocks: next along both", 6 * 0x1p-24, "linear", vec3(0.059582119, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 3), vec2(1.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("two blocks along s: next along t is the same", 6 * 0x1p-24, "linear", vec3(0.048608097, 0.0, 0.0),
+CASE_EQUALS("two blocks along s: next along t is the same", 6 * 0x1p-24, "linear",
+            vec3(0.048608097, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 3, 2), vec2(0.0, 1.0), ivec2(3, 2)))
-CASE_EQUALS("two blocks along t: next along both is next along t", 6 * 0x1p-24, "linear", vec3(0.055800112, 0.0, 0.0),
+CASE_EQUALS("two blocks along t: next along both is next along t", 6 * 0x1p-24, "linear",
+            vec3(0.055800112, 0.0, 0.0),
             ramp_four(blocks, leaves, ivec4(7, 7, 2, 3), vec2(1.0, 1.0), ivec2(3, 2)))

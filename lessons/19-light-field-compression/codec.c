@@ -32,7 +32,7 @@ Blocks codec_blocks(const Codec *codec, const Field *field) {
 /* ---- Encoded fields ---- */
 
 Encoded encoded_create(const Codec *codec, const Field *field, int knob) {
-    Encoded encoded = {.codec = codec, .field = *field, .knob = knob};
+    Encoded encoded = {.codec = codec, .field = *field, .blocks = codec_blocks(codec, field), .knob = knob};
     memcpy(encoded.planes, codec->planes, sizeof encoded.planes);
     return encoded;
 }
@@ -188,9 +188,11 @@ static void sum_row(void *context, int row) {
             for (int s = 0; s < field->s; s++, i++) {
                 float light[3];
                 double sum = 0.0;
+                const uint8_t *texel = texels + FIELD_TEXEL * i;
                 job->encoded->codec->decode(job->encoded, (const int[4]){u, job->first + row, s, t}, light);
-                for (int k = 0; k < 3; k++) {
-                    double off = (double)code_of(light[k]) - texels[3 * i + (size_t)k];
+                bool black = light[0] + light[1] + light[2] == 0.0f && !(texel[0] | texel[1] | texel[2]);
+                for (int k = 0; k < 3 && !black; k++) {
+                    double off = (double)code_of(light[k]) - texel[k];
                     sum += off * off;
                 }
                 error->squares += sum;

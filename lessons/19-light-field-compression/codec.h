@@ -26,9 +26,15 @@ enum { PLANES_MAX = 2 };
 
 typedef struct Codec Codec;
 
+/* Blocks along each axis; the last ones of an axis may stick out of the field. */
+typedef struct {
+    int u, v, s, t;
+} Blocks;
+
 typedef struct {
     const Codec *codec;
     Field field;
+    Blocks blocks;
     int knob; /* as the technique's: what it means is the codec's affair */
     Plane planes[PLANES_MAX];
     double mean_error[16]; /* vector quantization: of the training, squared codes a texel, after each round */
@@ -41,11 +47,6 @@ typedef struct {
     void (*rows)(const void *data, int first, int rows, uint8_t *texels);
     const void *data;
 } FieldSource;
-
-/* Blocks along each axis; the last ones of an axis may stick out of the field. */
-typedef struct {
-    int u, v, s, t;
-} Blocks;
 
 struct Codec {
     const char *name;

@@ -511,7 +511,7 @@ static size_t leaves_place(Plane *plane, Seen *seen, const uint32_t *leaves, uin
 }
 
 static void ramp_encode(Encoded *encoded, int band, int rows, const uint8_t *texels) {
-    Blocks blocks = codec_blocks(&codec_ramp, &encoded->field);
+    Blocks blocks = encoded->blocks;
     size_t count = (size_t)blocks.s * (size_t)blocks.t, all = count * (size_t)blocks.u, room = 1;
     double tolerance = encoded->knob / 4.0;
     BandJob job = {encoded, texels,
@@ -546,7 +546,7 @@ static void ramp_encode(Encoded *encoded, int band, int rows, const uint8_t *tex
 /* ---- Decoding ---- */
 
 static void ramp_decode(const Encoded *encoded, const int at[4], float *light) {
-    Blocks blocks = codec_blocks(&codec_ramp, &encoded->field);
+    Blocks blocks = encoded->blocks;
     uint32_t entry, leaf[LEAF_WORDS], cell = 0;
     size_t number = block_number(&blocks, at[0] / BLOCK_U, at[1] / BLOCK_V, at[2] / BLOCK_S, at[3] / BLOCK_T);
     memcpy(&entry, plane_at(&encoded->planes[0], sizeof entry * number), sizeof entry);
@@ -574,7 +574,7 @@ static void ramp_decode(const Encoded *encoded, const int at[4], float *light) {
 
 static int64_t ramp_size(const Encoded *encoded, int plane, int band) {
     (void)band;
-    Blocks blocks = codec_blocks(&codec_ramp, &encoded->field);
+    Blocks blocks = encoded->blocks;
     return plane ? -1 : (int64_t)sizeof(uint32_t) * blocks.u * blocks.s * blocks.t;
 }
 

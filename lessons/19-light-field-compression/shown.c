@@ -23,7 +23,7 @@ static void check_size(const Encoded *encoded, int64_t width, int64_t height) {
 
 /* A picture of blocks: a plane's rows. */
 static Texture picture(const Encoded *encoded, int plane, int side, TexturePacking packing) {
-    Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
+    Blocks blocks = encoded->blocks;
     int64_t width = (int64_t)blocks.u * blocks.s * side, height = (int64_t)blocks.v * blocks.t * side;
     check_size(encoded, width, height);
     return texture_packed((int)width, (int)height, packing, encoded->planes[plane].data,
@@ -61,7 +61,7 @@ static Texture leaves_texture(const Plane *leaves) {
 /* Each entry with those of the next blocks along s, along t, and along both: what four texels need is one
  * fetch. */
 static Texture table_texture(const Encoded *encoded) {
-    Blocks blocks = codec_blocks(encoded->codec, &encoded->field);
+    Blocks blocks = encoded->blocks;
     int64_t width = (int64_t)blocks.u * blocks.s, height = (int64_t)blocks.v * blocks.t;
     check_size(encoded, width, height);
     const uint32_t *entries = (const uint32_t *)encoded->planes[0].data;
@@ -80,7 +80,7 @@ static Texture table_texture(const Encoded *encoded) {
 
 Shown shown_create(const Encoded *encoded) {
     const Codec *codec = encoded->codec;
-    Shown shown = {.blocks = codec_blocks(codec, &encoded->field)};
+    Shown shown = {.blocks = encoded->blocks};
     if (codec == &codec_vq) {
         shown.names[0] = "book", shown.names[1] = "codes";
         shown.textures[0] = book_texture(&encoded->planes[0]);

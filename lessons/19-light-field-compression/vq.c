@@ -324,7 +324,7 @@ static void vq_encode(Encoded *encoded, int band, int rows, const uint8_t *texel
     int count = (int)(book->bytes / PATCH_BYTES);
     float *codes = allocate((size_t)count * PATCH_BYTES, sizeof(float));
     for (size_t i = 0; i < book->bytes; i++) codes[i] = book->data[i];
-    Blocks blocks = codec_blocks(&codec_vq, &encoded->field);
+    Blocks blocks = encoded->blocks;
     size_t bytes =
         (size_t)vq_code_bytes(encoded->knob) * (size_t)blocks.u * (size_t)blocks.s * (size_t)blocks.t;
     BandJob job = {encoded,
@@ -347,7 +347,7 @@ static uint32_t code_at(const Encoded *encoded, size_t number) {
 }
 
 static void vq_decode(const Encoded *encoded, const int at[4], float *light) {
-    Blocks blocks = codec_blocks(&codec_vq, &encoded->field);
+    Blocks blocks = encoded->blocks;
     uint32_t code =
         code_at(encoded, block_number(&blocks, at[0] / PATCH_SIDE, at[1] / PATCH_SIDE, at[2], at[3]));
     const uint8_t *texel = encoded->planes[0].data + (size_t)code * PATCH_BYTES +
@@ -357,7 +357,7 @@ static void vq_decode(const Encoded *encoded, const int at[4], float *light) {
 
 static int64_t vq_size(const Encoded *encoded, int plane, int band) {
     (void)band;
-    Blocks blocks = codec_blocks(&codec_vq, &encoded->field);
+    Blocks blocks = encoded->blocks;
     return plane ? (int64_t)vq_code_bytes(encoded->knob) * blocks.u * blocks.s * blocks.t : -1;
 }
 
