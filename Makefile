@@ -24,7 +24,7 @@ EMBREE_LIBS := -lembree3
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(LIBRARIES) $(LESSONS:%=$(B)/%) $(B)/light-field assets ## build everything
+all: $(LIBRARIES) $(LESSONS:%=$(B)/%) $(TOOLS) $(B)/light-field assets ## build everything
 
 help: ## list these commands
 	@grep -hE '^[^#[:space:]].*:.*## ' $(MAKEFILE_LIST) | sed -E 's/^.*: ([a-z-]*)%:/\1NN:/; s/:.*## /\t/' \
@@ -65,9 +65,11 @@ $(B)/libtexel.a: $(COMMON_OBJECTS)
 	$(call say,AR,$@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
-# ---- Lessons: one folder, one program; test_*.c beside them are tests ----
+# ---- Lessons: one folder, one program; test_*.c beside them are tests, and tool_NAME.c programs of their own ----
 
-lesson_sources = $(filter-out $(wildcard lessons/$(1)/test_*.c),$(wildcard lessons/$(1)/*.c))
+lesson_sources = $(filter-out $(wildcard lessons/$(1)/test_*.c lessons/$(1)/tool_*.c),$(wildcard lessons/$(1)/*.c))
+lesson_tools = $(patsubst lessons/$(1)/tool_%.c,$(B)/$(firstword $(subst -, ,$(1)))-%,$(wildcard lessons/$(1)/tool_*.c))
+TOOLS := $(foreach lesson,$(LESSONS),$(call lesson_tools,$(lesson)))
 
 define LESSON_RULES
 $(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(LIBRARIES)
@@ -76,8 +78,17 @@ $(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(LIBRARIES)
 endef
 $(foreach lesson,$(LESSONS),$(eval $(call LESSON_RULES,$(lesson))))
 
-$(NUMBERS): %: all ## (a lesson's number) open the lesson in a window
-	$(Q)$(B)/$(call lesson_of,$*)
+# build/NN-NAME takes from the lesson's other sources, as from the library, only what it needs.
+define TOOL_RULES
+$(B)/obj/lessons/$(1).a: $(patsubst %,$(B)/obj/%.o,$(filter-out %/lesson.c,$(call lesson_sources,$(1))))
+	$$(Q)rm -f $$@ && $$(AR) rcs $$@ $$^
+$(call lesson_tools,$(1)): $(B)/$(firstword $(subst -, ,$(1)))-%: $(B)/obj/lessons/$(1)/tool_%.c.o \
+	$(B)/obj/lessons/$(1).a $(B)/libtexel.a
+	$$(call say,LINK,$$@)
+	$$(Q)$$(CC) $$(CFLAGS) $$(LDFLAGS) -Wl,--as-needed $$^ $$(TEXEL_LIBS) -o $$@
+$(B)/$(1): | $(call lesson_tools,$(1))
+endef
+$(foreach lesson,$(LESSONS),$(if $(call lesson_tools,$(lesson)),$(eval $(call TOOL_RULES,$(lesson)))))
 
 -include assets/assets.mk
 -include tests/cases.mk

@@ -67,7 +67,17 @@ light-field: $(B)/light-field ## (SIZE=512x256x32x32 SCENE=composed) make a ligh
 	$(Q)$(B)/light-field make '$(FIELD_OUT)' --size '$(SIZE)' $(if $(SCENE),--scene '$(SCENE)') \
 		$(if $(SAMPLES),--samples '$(SAMPLES)') $(if $(ANGLES),--angles '$(ANGLES)') $(if $(MODEL),--model '$(MODEL)')
 
-.PHONY: relief light-field
+# The same, encoded, and never whole in memory; TECHNIQUE is bc1, bc7, vq or ramp. lessons/19-light-field-compression.
+ENCODED_OUT = $(or $(OUT),$(B)/fields/$(or $(SCENE),composed)-$(SIZE)-$(or $(SAMPLES),7)-$(or $(TECHNIQUE),ramp)$(addprefix -,$(KNOB)).field)
+light-field-encode: $(B)/19-encode ## (SIZE=1024x512x128x128 TECHNIQUE=ramp KNOB=8) encode a light field as a file
+	$(if $(SIZE)$(FROM),,$(error usage: make light-field-encode SIZE=512x256x32x32 \
+		[SCENE=composed SAMPLES=7 TECHNIQUE=ramp KNOB=8 OUT=a.field BANDS=4 VERIFY=1], or FROM=raw.field OUT=a.field))
+	$(Q)mkdir -p $(B)/fields
+	$(Q)$(B)/19-encode make '$(ENCODED_OUT)' $(if $(SIZE),--size '$(SIZE)') $(if $(FROM),--from '$(FROM)') \
+		$(if $(SCENE),--scene '$(SCENE)') $(if $(SAMPLES),--samples '$(SAMPLES)') $(if $(VERIFY),--verify) \
+		$(if $(TECHNIQUE),--technique '$(TECHNIQUE)') $(if $(KNOB),--knob '$(KNOB)') $(if $(BANDS),--bands '$(BANDS)')
+
+.PHONY: relief light-field light-field-encode
 
 # A .npz is a zip archive; unzip checks what it unpacks.
 $(B)/assets/motorcycle_disp.npy: $(B)/assets/motorcycle_disp.npz

@@ -15,6 +15,7 @@
     X(BINDVERTEXARRAY, BindVertexArray) X(BLENDFUNC, BlendFunc) X(BLITFRAMEBUFFER, BlitFramebuffer) \
     X(BUFFERDATA, BufferData) X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) X(CLEAR, Clear) \
     X(CLEARBUFFERFV, ClearBufferfv) X(CLEARCOLOR, ClearColor) X(COMPILESHADER, CompileShader) \
+    X(COMPRESSEDTEXIMAGE2D, CompressedTexImage2D) \
     X(CREATEPROGRAM, CreateProgram) X(CREATESHADER, CreateShader) X(DELETEBUFFERS, DeleteBuffers) \
     X(DELETEFRAMEBUFFERS, DeleteFramebuffers) X(DELETEPROGRAM, DeleteProgram) \
     X(DELETERENDERBUFFERS, DeleteRenderbuffers) X(DELETESHADER, DeleteShader) \

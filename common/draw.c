@@ -88,6 +88,43 @@ void texture_write(const Texture *texture, TextureFormat format, const void *tex
     texture_write_part(texture, format, 0, 0, texture->width, texture->height, texels);
 }
 
+static void pack_numbers(int width, int height, TexturePacking packing, const uint8_t *data, size_t bytes) {
+    static const struct {
+        GLint stored;
+        GLenum layout, type;
+        size_t bytes;
+    } numbers[] = {{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1},
+                   {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2},
+                   {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
+                   {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16}};
+    GLenum layout = numbers[packing].layout, type = numbers[packing].type;
+    size_t row = numbers[packing].bytes * (size_t)width;
+    int whole = (int)(bytes / row), rest = (int)(bytes % row / numbers[packing].bytes);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, numbers[packing].stored, width, height, 0, layout, type, NULL);
+    if (whole) gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, whole, layout, type, data);
+    if (rest) gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest, 1, layout, type, data + row * (size_t)whole);
+}
+
+/* From EXT_texture_compression_s3tc with EXT_texture_sRGB, and ARB_texture_compression_bptc. */
+enum { SRGB_S3TC_DXT1 = 0x8c4c, SRGB_ALPHA_BPTC_UNORM = 0x8e8d };
+
+Texture texture_packed(int width, int height, TexturePacking packing, const void *data, size_t bytes) {
+    Texture texture = {.width = width, .height = height, .levels = 1};
+    gl.GenTextures(1, &texture.id);
+    gl.BindTexture(GL_TEXTURE_2D, texture.id);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    set_filter(TEXTURE_NEAREST);
+    if (packing < PACKED_BC1)
+        pack_numbers(width, height, packing, data, bytes);
+    else
+        gl.CompressedTexImage2D(GL_TEXTURE_2D, 0,
+                                packing == PACKED_BC1 ? SRGB_S3TC_DXT1 : SRGB_ALPHA_BPTC_UNORM, width, height,
+                                0, (GLsizei)bytes, data);
+    draw_check("making a packed texture");
+    return texture;
+}
+
 void texture_mipmap(Texture *texture) {
     gl.BindTexture(GL_TEXTURE_2D, texture->id);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1000);

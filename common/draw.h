@@ -70,6 +70,13 @@ void texture_write(const Texture *texture, TextureFormat format, const void *tex
 void texture_write_part(const Texture *texture, TextureFormat format, int x, int y, int width, int height,
                         const void *texels);
 
+/* A texture that a shader reads by texelFetch alone. PACKED_U8 to PACKED_U32X4: whole numbers, one a texel or
+ * four, for a usampler2D. PACKED_BC1, PACKED_BC7: blocks of 4 x 4 texels of sRGB as the GPU itself compresses
+ * them, eight and sixteen bytes; width and height are multiples of 4. Rows of texels or of blocks follow one
+ * another; what `bytes` leave out of the last row is not defined. Ends the program where OpenGL cannot. */
+typedef enum { PACKED_U8, PACKED_U16, PACKED_U32, PACKED_U32X4, PACKED_BC1, PACKED_BC7 } TexturePacking;
+Texture texture_packed(int width, int height, TexturePacking packing, const void *data, size_t bytes);
+
 void texture_mipmap(Texture *texture); /* glGenerateMipmap, and TEXTURE_TRILINEAR */
 void texture_destroy(Texture *texture);
 

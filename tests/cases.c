@@ -114,7 +114,8 @@ static char *shader_text(int first, int end, Numbers *numbers) {
     }
     for (int i = 0; i < line_count; i++) {
         if (in_double[i].texture)
-            fprintf(out, "uniform sampler2D %s;\n", in_double[i].name);
+            fprintf(out, "uniform %s %s;\n", in_double[i].texture->whole ? "usampler2D" : "sampler2D",
+                    in_double[i].name);
         else if (!in_double[i].evaluate)
             fprintf(out, "%s\n", in_float[i].text);
     }
@@ -192,8 +193,13 @@ static void evaluate_all(void) {
         CaseTexture *texture = in_double[i].texture;
         if (!texture) continue;
         make_levels(texture, in_float[i].texture);
-        textures[i] = texture_create(texture->levels, texture->count, TEXTURE_FLOAT,
-                                     texture->mipped ? TEXTURE_TRILINEAR : TEXTURE_LINEAR);
+        int width = texture->width, height = texture->height;
+        if (texture->whole)
+            textures[i] = texture_packed(width, height, PACKED_U32X4, texture->levels[0].pixels,
+                                         4 * sizeof(float) * (size_t)width * (size_t)height);
+        else
+            textures[i] = texture_create(texture->levels, texture->count, TEXTURE_FLOAT,
+                                         texture->mipped ? TEXTURE_TRILINEAR : TEXTURE_LINEAR);
     }
     for (int i = 0; i < case_count; i += SHADER_CASES)
         evaluate(i, i + SHADER_CASES < case_count ? i + SHADER_CASES : case_count, textures);

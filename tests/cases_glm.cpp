@@ -17,6 +17,8 @@
  *   CASE_TEXTURE_MIPPED(name, width, height, expression)
  *       The same with every level down to 1x1, and trilinear. The expression may use the int level; x and y
  *       count that level's texels.
+ *   CASE_NUMBERS(name, width, height, expression)
+ *       A usampler2D for the cases below it; the expression is a uvec4.
  *   CASE_GLSL(function)
  *       A function for the cases below it, where a case needs more than one call. It gets no row of its own.
  *
@@ -29,20 +31,24 @@
 #define CASE(...)
 #define CASE_FLIP(...)
 #define CASE_EQUALS(...)
-#define CASE_TEXTURE_OF(sampler, width, height, mipped, ...)                                                 \
+#define CASE_TEXTURE_OF(type, sampler, width, height, mipped, whole, make, ...)                              \
     static CaseTexture texture_##sampler = {width,                                                           \
                                             height,                                                          \
                                             mipped,                                                          \
+                                            whole,                                                           \
                                             [](int x, int y, int level, Texel *rgba) {                       \
                                                 (void)x, (void)y, (void)level;                               \
-                                                case_texel(__VA_ARGS__, rgba);                               \
+                                                make(__VA_ARGS__, rgba);                                     \
                                             },                                                               \
                                             0,                                                               \
                                             {}};                                                             \
-    static const sampler2D sampler = {&texture_##sampler};
-#define CASE_TEXTURE(sampler, width, height, ...) CASE_TEXTURE_OF(sampler, width, height, false, __VA_ARGS__)
+    static const type sampler = {&texture_##sampler};
+#define CASE_TEXTURE(sampler, width, height, ...)                                                            \
+    CASE_TEXTURE_OF(sampler2D, sampler, width, height, false, false, case_texel, __VA_ARGS__)
 #define CASE_TEXTURE_MIPPED(sampler, width, height, ...)                                                     \
-    CASE_TEXTURE_OF(sampler, width, height, true, __VA_ARGS__)
+    CASE_TEXTURE_OF(sampler2D, sampler, width, height, true, false, case_texel, __VA_ARGS__)
+#define CASE_NUMBERS(sampler, width, height, ...)                                                            \
+    CASE_TEXTURE_OF(usampler2D, sampler, width, height, false, true, case_numbers, __VA_ARGS__)
 #define CASE_GLSL(...) __VA_ARGS__
 
 namespace CASES_NAMESPACE {
@@ -56,6 +62,7 @@ namespace CASES_NAMESPACE {
 #undef CASE_EQUALS
 #undef CASE_TEXTURE
 #undef CASE_TEXTURE_MIPPED
+#undef CASE_NUMBERS
 #undef CASE_GLSL
 #define CASE_OF(name, bound, unit, flip, text, ...)                                                          \
     {name, nullptr, text, unit, bound, flip, [] { return case_value(__VA_ARGS__); }},
@@ -69,6 +76,7 @@ namespace CASES_NAMESPACE {
 #endif
 #define CASE_TEXTURE(sampler, ...) {#sampler, &texture_##sampler, "", "", 0, false, nullptr},
 #define CASE_TEXTURE_MIPPED CASE_TEXTURE
+#define CASE_NUMBERS CASE_TEXTURE
 #define CASE_GLSL(...) {"", nullptr, #__VA_ARGS__, "", 0, false, nullptr},
 
 namespace CASES_NAMESPACE {

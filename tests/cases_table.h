@@ -16,7 +16,7 @@ enum { CASE_LEVELS_MAX = 14 };
 
 typedef struct {
     int width, height;
-    bool mipped;
+    bool mipped, whole; /* whole: a texel's floats are the bits of four whole numbers */
     void (*texel)(int x, int y, int level, float *rgba);
     int count; /* of levels; none until cases.c makes them */
     Image levels[CASE_LEVELS_MAX];

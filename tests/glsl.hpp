@@ -46,7 +46,11 @@
 
 #include "cases_table.h"
 
+#undef PI /* vec.h's: a technique may have one of its own */
+
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -77,6 +81,10 @@ struct sampler2D {
     const CaseTexture *texture;
 };
 
+struct usampler2D {
+    const CaseTexture *texture;
+};
+
 inline ivec2 textureSize(sampler2D sampler, int level) {
     const Image &image = sampler.texture->levels[level];
     return ivec2(image.width, image.height);
@@ -90,6 +98,15 @@ inline vec4 texelFetch(sampler2D sampler, ivec2 at, int level) {
         return vec4(std::numeric_limits<float>::quiet_NaN());
     const Texel *rgba = image_at(&texture.levels[level], at.x, at.y);
     return vec4(rgba[0], rgba[1], rgba[2], rgba[3]);
+}
+
+/* The same for whole numbers, where outside of the image are some that no technique expects. */
+inline uvec4 texelFetch(usampler2D sampler, ivec2 at, int level) {
+    const Image &image = sampler.texture->levels[level];
+    if (at.x < 0 || at.y < 0 || at.x >= image.width || at.y >= image.height) return uvec4(0xdeadbeefu);
+    std::uint32_t bits[4];
+    std::memcpy(bits, image_at(&image, at.x, at.y), sizeof bits);
+    return uvec4(bits[0], bits[1], bits[2], bits[3]);
 }
 
 /* A whole number modulo size; fmod is exact however large the number is. */
@@ -122,6 +139,14 @@ inline vec4 textureLod(sampler2D sampler, vec2 uv, float lod) {
 inline vec4 textureGrad(sampler2D sampler, vec2 uv, vec2 by_x, vec2 by_y) {
     vec2 size = vec2(textureSize(sampler, 0));
     return textureLod(sampler, uv, std::log2(std::fmax(length(by_x * size), length(by_y * size))));
+}
+
+/* The texel of a CASE_NUMBERS: the bits of its numbers. */
+inline void case_numbers(uvec4 numbers, Texel *rgba) {
+    for (int i = 0; i < 4; i++) {
+        std::uint32_t bits = numbers[i];
+        std::memcpy(&rgba[i], &bits, sizeof bits);
+    }
 }
 
 inline CaseValue case_value(float x) { return {{x}, 1}; }

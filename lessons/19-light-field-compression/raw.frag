@@ -1,0 +1,5 @@
+// The sixteen taps of the texels as they are.
+#include "field.inc"
+#include "pages.inc"
+#include "taps.inc"
+#include "shown.inc"
