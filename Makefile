@@ -78,6 +78,9 @@ $(B)/$(1): $(patsubst %,$(B)/obj/%.o,$(call lesson_sources,$(1))) | $(LIBRARIES)
 endef
 $(foreach lesson,$(LESSONS),$(eval $(call LESSON_RULES,$(lesson))))
 
+$(NUMBERS): %: all ## (a lesson's number) open the lesson in a window
+	$(Q)$(B)/$(call lesson_of,$*)
+
 # build/NN-NAME takes from the lesson's other sources, as from the library, only what it needs.
 define TOOL_RULES
 $(B)/obj/lessons/$(1).a: $(patsubst %,$(B)/obj/%.o,$(filter-out %/lesson.c,$(call lesson_sources,$(1))))
