@@ -354,5 +354,6 @@ int main(void) {
         cmocka_unit_test(nothing_depends_on_threads),
         cmocka_unit_test(nothing_depends_on_lanes),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests_name("synthesis", tests, NULL, NULL);
 }

@@ -339,6 +339,10 @@ CASE_EQUALS("the second cylinder", 0, "", vec3(0.5, 0.5, 0.125),
             strike(solids, ivec3(1, 3, 4), vec3(0.0, 10.0, 0.0), vec3(0.0, -1.0, 0.0)).colour)
 CASE_EQUALS("from beyond everything", 0, "", -1.0,
             strike(solids, ivec3(1, 3, 4), vec3(0.0, 0.0, 10.0), vec3(0.0, 0.0, 1.0)).depth)
+CASE_EQUALS("past the ball: no cylinder or box is there", 0, "", -1.0,
+            strike(solids, ivec3(1, 3, 4), vec3(0.875, 0.875, 10.0), vec3(0.0, 0.0, -1.0)).depth)
+CASE_EQUALS("past the cylinder: no box is there", 0, "", -1.0,
+            strike(solids, ivec3(1, 3, 4), vec3(4.375, 10.0, 0.375), vec3(0.0, -1.0, 0.0)).depth)
 CASE_EQUALS("no solids", 0, "", -1.0, strike(solids, ivec3(0), vec3(0.0, 0.0, 10.0), vec3(0.0, 0.0, -1.0)).depth)
 
 // phong: eight operations below 1. Its power multiplies the 5 u of shine by 32, of 0.3: 48 u. pow is exp2(y log2 x) in

@@ -49,5 +49,6 @@ int main(void) {
         cmocka_unit_test(all_make_the_same),
         cmocka_unit_test(more_rays_come_nearer),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests_name("rates", tests, NULL, NULL);
 }

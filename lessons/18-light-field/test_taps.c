@@ -555,6 +555,42 @@ static void test_pages(void **state) {
     program_destroy(&paper), program_destroy(&paged);
 }
 
+/* Fields too long for one texture, as field_texture_create cuts them. */
+static void test_cut(void **state) {
+    (void)state;
+    const struct {
+        int u, v, s, t, columns, rows, count;
+    } sizes[] = {{1024, 8, 32, 8, 512, 8, 2}, {1022, 8, 33, 8, 256, 8, 4}, {8, 700, 8, 33, 8, 350, 2}};
+    Program program = build("paper-pages.frag");
+    Picture picture = picture_create(SIDE, SIDE, true);
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        Field field = {.radius = 3.5, .u = sizes[k].u, .v = sizes[k].v, .s = sizes[k].s, .t = sizes[k].t};
+        uint8_t *texels = random_texels(&field);
+        FieldTexture texture = upload(&field, texels);
+        assert_int_equal(texture.columns, sizes[k].columns);
+        assert_int_equal(texture.rows, sizes[k].rows);
+        assert_int_equal(texture.count, sizes[k].count);
+        assert_true(field_texture_bytes(&texture) == (size_t)4 * (size_t)texture.count *
+                                                         (size_t)(texture.columns * field.s) *
+                                                         (size_t)(texture.rows * field.t));
+        Held held = {.field = &field, .texels = texels};
+        Apart apart = {0};
+        for (int i = 0; i < CAMERAS; i++) {
+            if (i == AFAR) continue;
+            Camera camera = camera_number(i, &field);
+            draw(&program, &texture, &camera, &picture);
+            compare_to_doubles(&apart, paper_taps, &held, &camera, &picture);
+        }
+        print_message("%dx%dx%dx%d in %d textures: at most %.4f/255\n", field.u, field.v, field.s, field.t,
+                      texture.count, apart.linear);
+        assert_true(apart.linear <= 1 && apart.srgb <= 1);
+        field_texture_destroy(&texture);
+        free(texels);
+    }
+    picture_destroy(&picture);
+    program_destroy(&program);
+}
+
 /* One block is white and all others are black, so the angles do not count: a pixel shows the white block's
  * spatial weight alone. A tap that left its block would bring white where there is none, or black into the
  * block, wherever angles reach an end of s or t. So the white block is seen from eight sides, grazing, and
@@ -613,6 +649,7 @@ int main(void) {
         cmocka_unit_test(test_fast),
         cmocka_unit_test(test_long),
         cmocka_unit_test(test_pages),
+        cmocka_unit_test(test_cut),
         cmocka_unit_test(test_borders),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
