@@ -740,9 +740,13 @@ static void noise_in_files_is_harmless(void **state) {
 }
 
 int main(void) {
-    char program[4096] = {0};
+    char program[4096] = {0}, lessons[sizeof program + 16];
     if (readlink("/proc/self/exe", program, sizeof program - 1) < 0) return 1;
-    for (root = program; access(text("%s/lessons", root), R_OK) != 0;) *strrchr(root, '/') = '\0';
+    root = program;
+    do { /* up to the folder that holds lessons/ */
+        *strrchr(root, '/') = '\0';
+        snprintf(lessons, sizeof lessons, "%s/lessons", root);
+    } while (access(lessons, R_OK) != 0);
     if (!mkdtemp(folder)) return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(black_stays_black),
