@@ -201,6 +201,42 @@ static void tolerance_trades(void **state) {
     free(texels);
 }
 
+/* Four colours that are on no line: one for each two texels along u, or along v, or for each of the four (s,
+ * t). */
+static const uint8_t four_colours[4][3] = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}};
+static void along_u(int u, int v, int s, int t, uint8_t texel[3]) {
+    (void)v, (void)s, (void)t;
+    memcpy(texel, four_colours[u / 2 % 4], 3);
+}
+static void along_v(int u, int v, int s, int t, uint8_t texel[3]) {
+    (void)u, (void)s, (void)t;
+    memcpy(texel, four_colours[v / 2 % 4], 3);
+}
+static void along_s_and_t(int u, int v, int s, int t, uint8_t texel[3]) {
+    (void)u, (void)v;
+    memcpy(texel, four_colours[s % 2 + t % 2 * 2], 3);
+}
+
+/* A block is cut across the axis along which it changes, as often as is needed and no more. */
+static void blocks_are_cut_where_they_change(void **state) {
+    (void)state;
+    const Content contents[] = {along_u, along_v, along_s_and_t};
+    const int halvings[][2] = {{1, 1}, {1 << 2, 1 << 2}, {1 << 4, 1 << 5}}; /* s and t do as well */
+    Field field = field_of(8, 8, 8, 8);
+    for (int i = 0; i < 3; i++) {
+        uint8_t *texels = field_fill(&field, contents[i]);
+        Encoded encoded = encode(&codec_ramp, 8, &field, texels);
+        near(worst(&encoded, texels), 0, 1);
+        assert_int_equal(encoded.planes[1].bytes, 3 * RAMP_LEAF_BYTES); /* two of two colours, and black */
+        for (size_t n = 0; n < encoded.planes[0].bytes; n += 4) {
+            int halved = encoded.planes[0].data[n] & 63;
+            assert_true(halved == halvings[i][0] || halved == halvings[i][1]);
+        }
+        encoded_destroy(&encoded);
+        free(texels);
+    }
+}
+
 /* Equal blocks of a band share their leaves. */
 static void equal_blocks_share(void **state) {
     (void)state;
@@ -756,6 +792,7 @@ int main(void) {
         cmocka_unit_test(corners_stay),
         cmocka_unit_test(a_plane_is_one_leaf),
         cmocka_unit_test(tolerance_trades),
+        cmocka_unit_test(blocks_are_cut_where_they_change),
         cmocka_unit_test(equal_blocks_share),
         cmocka_unit_test(training_falls_and_repeats),
         cmocka_unit_test(codes_are_the_nearest),
