@@ -696,6 +696,9 @@ static void broken_files_are_told(void **state) {
         header = file.header, header.field.v = 200;
         write_changed(bad, &file, header, -1, 0, NULL, 0);
         assert_non_null(strstr(tried(bad), "sections"));
+        header.field.v = 8;
+        write_changed(bad, &file, header, -1, 0, NULL, 0);
+        assert_non_null(strstr(tried(bad), "sections"));
         if (c == 3) { /* an entry beyond all leaves */
             memset(payload, 0xff, 4);
             write_changed(bad, &file, file.header, 0, 0, payload, length);
