@@ -4,9 +4,8 @@
  * move against each other as the eye moves. With `trilinear`, one picture on the ball, they are painted on
  * it. With `nearest` they fall into pieces, a piece a texel; `paper` mixes sixteen texels, and every edge is
  * as soft as the angles between texels are wide. `depth-corrected` knows roughly how deep things lie, and is
- * nearly sharp. Then the table: what softness costs in bytes (`figure-7`), what a light field shows that no
- * geometry is needed for (`effects`), and where it must be wrong (`placements`, from between a ball and the
- * model). */
+ * sharper. Then the table: what softness costs in bytes (`figure-7`), what costs a light field nothing
+ * (`effects`), and where it must be wrong (`placements`, from between a ball and the model). */
 #include "globe.h"
 
 /* clang-format off */
