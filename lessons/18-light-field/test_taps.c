@@ -636,6 +636,44 @@ static void test_borders(void **state) {
     free(texels);
 }
 
+/* What trilinear.frag takes for a pixel's size, read off a picture whose level k is k / 8 everywhere.
+ * Straight on, a pixel covers the same of the model both ways. */
+static void test_level(void **state) {
+    (void)state;
+    enum { LEVELS = 7, WIDE = 512, HIGH = 256 };
+    const Field field = {FIELD_SPHERE, .radius = 3.5, .u = WIDE, .v = HIGH, .s = 8, .t = 8};
+    Image levels[LEVELS];
+    for (int k = 0; k < LEVELS; k++) {
+        levels[k] = image_create(WIDE >> k, HIGH >> k, 3);
+        for (int i = 0; i < (WIDE >> k) * (HIGH >> k) * 3; i++) levels[k].pixels[i] = (float)k / 8;
+    }
+    Texture plain = texture_create(levels, LEVELS, TEXTURE_FLOAT, TEXTURE_TRILINEAR);
+    Program program = build("trilinear.frag");
+    for (double distance = 10; distance <= 80; distance *= 2) {
+        Camera camera = looking(v3(distance, 0, 0), v3(0, 0, 0), 30);
+        Frame frame = {.program = &program, .camera = camera, .width = SIDE, .height = SIDE};
+        double pixel = 2 * tan(radians(15)) / SIDE, texels = (distance - 3.5) * pixel / (PI * 3.5 / HIGH);
+        Target target = target_create(SIDE, SIDE, true);
+        Picture picture = picture_create(SIDE, SIDE, true);
+        target_begin(&target, (Vec3){0});
+        program_use(&program);
+        program_vector(&program, "size", SIDE, SIDE, 0, 0);
+        program_number(&program, "pixel", pixel);
+        program_texture(&program, "plain", &plain);
+        field_uniforms(&frame, &field);
+        draw_everywhere();
+        target_read(&target, &picture);
+        double level = 8 * *image_at(&picture.colour, SIDE / 2, SIDE / 2);
+        print_message("# from %g: level %.3f, expected %.3f\n", distance, level, log2(texels));
+        assert_true(fabs(level - log2(texels)) < 0.05);
+        picture_destroy(&picture);
+        target_destroy(&target);
+    }
+    program_destroy(&program);
+    texture_destroy(&plain);
+    for (int k = 0; k < LEVELS; k++) image_destroy(&levels[k]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_paper),
@@ -651,6 +689,7 @@ int main(void) {
         cmocka_unit_test(test_pages),
         cmocka_unit_test(test_cut),
         cmocka_unit_test(test_borders),
+        cmocka_unit_test(test_level),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests_name("taps", tests, start, end);
