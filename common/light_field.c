@@ -1,6 +1,7 @@
 #include "light_field.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 const char *field_refused(const Field *field) {
     const int sides[] = {field->u, field->v, field->s, field->t};
@@ -11,6 +12,19 @@ const char *field_refused(const Field *field) {
     }
     if (field->u % 2) return "an odd number of texels along u, of which half a turn must be whole ones";
     return NULL;
+}
+
+const char *field_size(Field *field, const char *text) {
+    int *const sides[] = {&field->u, &field->v, &field->s, &field->t};
+    for (int i = 0; i < 4; i++) {
+        char *end;
+        long side = *text >= '0' && *text <= '9' ? strtol(text, &end, 10) : -1;
+        if (side < 0 || side > 1000000 || *end != (i < 3 ? 'x' : '\0'))
+            return "expected UxVxSxT, such as 512x256x32x32";
+        *sides[i] = (int)side;
+        text = end + 1;
+    }
+    return field_refused(field);
 }
 
 void field_list(const Field *field) {

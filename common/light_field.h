@@ -45,6 +45,9 @@ enum {
 /* Why a field cannot be of that size, or NULL. */
 const char *field_refused(const Field *field);
 
+/* Reads a size such as 512x256x32x32 into u, v, s and t; NULL, or why that is none or is refused. */
+const char *field_size(Field *field, const char *text);
+
 /* Prints it for a lesson's --list. */
 void field_list(const Field *field);
 

@@ -9,34 +9,10 @@ use File::Path 'make_path';
 use File::Temp 'tempdir';
 use Digest::SHA 'sha256_hex';
 use Test::More;
+use lib 'tests';
+use Programs;
 
 my $tmp = tempdir(CLEANUP => 1);
-
-sub slurp {
-    my ($path) = @_;
-    open my $file, '<:raw', $path or return undef;
-    local $/;
-    return scalar <$file>;
-}
-
-sub spew {
-    my ($path, $bytes) = @_;
-    open my $file, '>:raw', $path or die "$path: $!";
-    print $file $bytes;
-    close $file or die "$path: $!";
-}
-
-# Runs a command; returns its status, standard output and standard error.
-sub run {
-    my $pid = fork // die "fork: $!";
-    if (!$pid) {
-        open STDOUT, '>', "$tmp/out" or die;
-        open STDERR, '>', "$tmp/err" or die;
-        exec @_ or exit 127;
-    }
-    waitpid $pid, 0;
-    return ($? & 127 ? "signal " . ($? & 127) : $? >> 8, slurp("$tmp/out"), slurp("$tmp/err"));
-}
 
 # Failing as a program of ours must: the status, and one line that begins and goes on as it should.
 sub refuses {

@@ -4,37 +4,11 @@ use strict;
 use warnings;
 use File::Temp 'tempdir';
 use Test::More;
+use lib 'tests';
+use Programs;
 use Time::HiRes 'sleep';
 
 my $tmp = tempdir(CLEANUP => 1);
-
-sub slurp {
-    my ($path) = @_;
-    open my $file, '<:raw', $path or return undef;
-    local $/;
-    return scalar <$file>;
-}
-
-sub spew {
-    my ($path, $bytes) = @_;
-    open my $file, '>:raw', $path or die "$path: $!";
-    print $file $bytes;
-    close $file or die "$path: $!";
-    return $path;
-}
-
-sub start { # a command, its outputs in files; returns its process
-    my $pid = fork // die "fork: $!";
-    return $pid if $pid;
-    open STDOUT, '>', "$tmp/out" or die;
-    open STDERR, '>', "$tmp/err" or die;
-    exec @_ or exit 127;
-}
-
-sub run { # returns its status, standard output and standard error
-    waitpid start(@_), 0;
-    return ($? & 127 ? "signal " . ($? & 127) : $? >> 8, slurp("$tmp/out"), slurp("$tmp/err"));
-}
 
 my @make = qw(build/19-encode make);
 

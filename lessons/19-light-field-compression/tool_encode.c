@@ -181,17 +181,8 @@ static int whole_number(const char *option, const char *argument, int least, int
 }
 
 static void read_size(const char *argument, Field *field) {
-    int *const sides[] = {&field->u, &field->v, &field->s, &field->t};
-    const char *at = argument;
-    for (int i = 0; i < 4; i++) {
-        char *end;
-        long side = strtol(at, &end, 10);
-        if (end == at || *at < '0' || *at > '9' || side > 1000000 || *end != (i < 3 ? 'x' : '\0'))
-            fail_usage("--size %s: expected UxVxSxT, such as 512x256x32x32", argument);
-        *sides[i] = (int)side;
-        at = end + 1;
-    }
-    if (field_refused(field)) fail_usage("--size %s: %s", argument, field_refused(field));
+    const char *reason = field_size(field, argument);
+    if (reason) fail_usage("--size %s: %s", argument, reason);
 }
 
 static Wishes read_options(int count, char **arguments) {
