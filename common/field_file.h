@@ -1,5 +1,5 @@
-/* Files of light-field textures, raw (lesson 18) or encoded (lesson 19). The format, which assets/README.md
- * describes byte by byte: a header, sections, and an end; each has a checksum, and is chained to what is
+/* Files of light-field textures, raw or encoded. The format, which assets/README.md describes byte by
+ * byte: a header, sections, and an end; each has a checksum, and is chained to what is
  * before it. Such a file may be far larger than memory: it is written and read section by section.
  *
  * What can fail returns NULL when all went well, else the reason in one line, without the file's name, valid
@@ -12,9 +12,9 @@
 
 enum {
     FIELD_FILE_VERSION = 1,
-    FIELD_RAW = 0,                 /* a codec: texels as they are; all other numbers are lesson 19's */
-    FIELD_NAME = 24,               /* bytes of a scene's name, its end included */
-    FIELD_PARAMETERS = 6,          /* of a codec */
+    FIELD_RAW = 0,        /* a codec: texels as they are; all other numbers are those of who encodes */
+    FIELD_NAME = 24,      /* bytes of a scene's name, its end included */
+    FIELD_PARAMETERS = 6, /* of a codec */
     FIELD_SECTIONS_MOST = 1 << 20, /* of a file */
 };
 

@@ -1,5 +1,5 @@
-/* What light fields are made of: solids in one light, and the exact light along a ray, in doubles: the truth
- * of lessons 18 and 19. How a light field is made of a scene, fast, is synthesis.h, which shares no code
+/* What light fields are made of: solids in one light, and the exact light along a ray, in doubles: their
+ * truth. How a light field is made of a scene, fast, is synthesis.h, which shares no code
  * with the truth.
  *
  * The light that leaves a surface of the colour c, normal N, lit from L, toward V, all unit vectors:
