@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static _Noreturn void say_and_exit(int status, const char *format, va_list arguments) {
     fflush(stdout);
@@ -24,6 +25,16 @@ void fail_usage(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     say_and_exit(STATUS_USAGE, format, arguments);
+}
+
+const char *because(const char *format, ...) {
+    static _Thread_local char reason[512];
+    char line[sizeof reason];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    return strcpy(reason, line);
 }
 
 void *allocate(size_t count, size_t size) {

@@ -9,7 +9,6 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,16 +21,6 @@
 enum { HEADER = 128, HEAD = 16, SUM = 8, CHUNK = 1 << 18 };
 
 static const double size_least = 1e-6, size_most = 1e6; /* of a model, in the units of its scene */
-
-static const char *because(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static const char *because(const char *format, ...) {
-    static _Thread_local char reason[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
-    va_end(arguments);
-    return reason;
-}
 
 void field_file_demand(const char *reason, const char *path) {
     if (reason) fail("%s: %s", path, reason);

@@ -13,7 +13,6 @@ extern "C" {
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -25,16 +24,6 @@ extern "C" {
 #include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
-
-/* The reason that a function hands back: one line, in a buffer of each thread's own. */
-__attribute__((format(printf, 1, 2))) static const char *reason(const char *format, ...) {
-    static thread_local char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return text;
-}
 
 /* ---- Reading --------------------------------------------------------------------------------------- */
 
@@ -121,15 +110,15 @@ static const char *check_whole(FILE *file, Texts *texts) {
 
 static const char *check_size(const OIIO::ImageSpec &spec, int channels) {
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-        return reason("the image has no pixels: %dx%d", spec.width, spec.height);
+        return because("the image has no pixels: %dx%d", spec.width, spec.height);
     if (spec.width > IMAGE_SIDE_MAX || spec.height > IMAGE_SIDE_MAX)
-        return reason("the image is too large: %dx%d pixels, at most %d a side", spec.width, spec.height,
-                      IMAGE_SIDE_MAX);
-    if (spec.depth > 1) return reason("the image is a volume, %d pixels deep", spec.depth);
-    if (channels > 4) return reason("the image has %d channels, at most 4 are read", channels);
+        return because("the image is too large: %dx%d pixels, at most %d a side", spec.width, spec.height,
+                       IMAGE_SIDE_MAX);
+    if (spec.depth > 1) return because("the image is a volume, %d pixels deep", spec.depth);
+    if (channels > 4) return because("the image has %d channels, at most 4 are read", channels);
     if ((int64_t)spec.width * spec.height * channels * (int64_t)sizeof(float) > (int64_t)1 << 30)
-        return reason("the image is too large: %dx%d pixels of %d channels, more than 1 GiB as floats",
-                      spec.width, spec.height, channels);
+        return because("the image is too large: %dx%d pixels of %d channels, more than 1 GiB as floats",
+                       spec.width, spec.height, channels);
     return nullptr;
 }
 
@@ -157,7 +146,7 @@ static const char *read_number(const OIIO::ImageSpec &spec, const char *name, do
     std::string text = read_text(spec, name);
     const char *at = text.data(), *end = at + text.size();
     if (take_number(&at, end, number) && at == end) return nullptr;
-    return reason("its %s is no number: \"%.40s\"", name, text.c_str());
+    return because("its %s is no number: \"%.40s\"", name, text.c_str());
 }
 
 /* A relief's a, b and f span a volume: none is zero, nor in the plane of the other two. */
@@ -177,7 +166,7 @@ static const char *read_basis(const OIIO::ImageSpec &spec, Basis *basis) {
         while (at < end && *at == ' ') at++;
         good = (i == 0 || at > before) && take_number(&at, end, &numbers[i]);
     }
-    if (!good || at != end) return reason("its texel:basis is not 12 numbers: \"%.80s\"", text.c_str());
+    if (!good || at != end) return because("its texel:basis is not 12 numbers: \"%.80s\"", text.c_str());
     auto vector = [&](int i) { return v3(numbers[i], numbers[i + 1], numbers[i + 2]); };
     basis->origin = vector(0), basis->a = vector(3), basis->b = vector(6), basis->f = vector(9);
     if (!spans_volume(*basis)) return "its texel:basis spans no volume";
@@ -190,9 +179,9 @@ static const char *read_is_relief(const OIIO::ImageSpec &spec, bool *relief) {
     if (!*relief) return nullptr;
     std::string version = read_text(spec, "texel:relief");
     if (version != "1")
-        return reason("its texel:relief is \"%.40s\": version 1 is the one that is read", version.c_str());
+        return because("its texel:relief is \"%.40s\": version 1 is the one that is read", version.c_str());
     if (spec.nchannels != 4)
-        return reason("a relief texture has four channels, but this file has %d", spec.nchannels);
+        return because("a relief texture has four channels, but this file has %d", spec.nchannels);
     return nullptr;
 }
 
@@ -206,10 +195,10 @@ static const char *read_about_height(const OIIO::ImageSpec &spec, bool relief, I
     if (refused) return refused;
     std::string unit = read_text(spec, "texel:unit"), hollow = read_text(spec, "texel:hollow");
     if (unit.size() >= sizeof image->basis.unit)
-        return reason("its texel:unit is longer than %zu bytes: \"%.40s\"", sizeof image->basis.unit - 1,
-                      unit.c_str());
+        return because("its texel:unit is longer than %zu bytes: \"%.40s\"", sizeof image->basis.unit - 1,
+                       unit.c_str());
     if (hollow != "" && hollow != "0" && hollow != "1")
-        return reason("its texel:hollow is neither 0 nor 1: \"%.40s\"", hollow.c_str());
+        return because("its texel:hollow is neither 0 nor 1: \"%.40s\"", hollow.c_str());
     strcpy(image->basis.unit, unit.c_str());
     image->hollow = hollow == "1";
     return nullptr;
@@ -293,8 +282,8 @@ static const char *read_or_throw(Image *image, const char *path, ImageKind kind)
     }
     for (size_t i = 0; i < stored.size(); i++)
         if (!std::isfinite(stored[i]))
-            return reason("not finite at column %zu, row %zu", i / channels % spec.width,
-                          i / channels / spec.width);
+            return because("not finite at column %zu, row %zu", i / channels % spec.width,
+                           i / channels / spec.width);
 
     Image result = image_create(spec.width, spec.height, kind == IMAGE_COLOUR ? 3 : channels);
     size_t bytes = spec.format.is_floating_point() ? 4 : spec.format.size();
@@ -321,7 +310,7 @@ static const char *read(Image *image, const char *path, ImageKind kind) {
         Silence silence;
         return read_or_throw(image, path, kind);
     } catch (const std::exception &exception) {
-        return reason("cannot be read: %s", exception.what());
+        return because("cannot be read: %s", exception.what());
     }
 }
 
@@ -345,14 +334,14 @@ static const char *store(const std::vector<unsigned char> &bytes, const char *pa
         return S_ISDIR(there.st_mode) ? "cannot be written: Is a directory" : "cannot be written: is no file";
     std::string name;
     File file = create_beside(path, &name);
-    if (!file) return reason("cannot be written: %s", strerror(errno));
+    if (!file) return because("cannot be written: %s", strerror(errno));
     bool written = fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
     int error = errno; /* of the first call that failed */
     if (fclose(file.release()) && written) written = false, error = errno;
     if (written && rename(name.c_str(), path)) written = false, error = errno;
     if (written) return nullptr;
     unlink(name.c_str());
-    return reason("cannot be written: %s", strerror(error));
+    return because("cannot be written: %s", strerror(error));
 }
 
 /* Encodes pixels, the top row first, in the format of path's ending, in memory: so every failure of the disk
@@ -432,7 +421,7 @@ template <typename Body> static const char *guarded(Body body) {
         Silence silence;
         return body();
     } catch (const std::exception &exception) {
-        return reason("cannot be written: %s", exception.what());
+        return because("cannot be written: %s", exception.what());
     }
 }
 
@@ -510,8 +499,8 @@ static const char *check_relief(const Image *colour, const Image *height, const 
     if (colour->channels != 3 || height->channels != 1)
         return "cannot be written: a relief texture is three channels of colour and one of height";
     if (colour->width != height->width || colour->height != height->height)
-        return reason("cannot be written: the colour is %d x %d texels, the height %d x %d", colour->width,
-                      colour->height, height->width, height->height);
+        return because("cannot be written: the colour is %d x %d texels, the height %d x %d", colour->width,
+                       colour->height, height->width, height->height);
     const Basis &basis = height->basis;
     if (std::isnan(basis.a.x)) return nullptr;
     if (!std::isfinite(basis.origin.x + basis.origin.y + basis.origin.z))

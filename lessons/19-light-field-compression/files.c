@@ -3,20 +3,9 @@
 #include "clock.h"
 #include "fail.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char *because(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static const char *because(const char *format, ...) {
-    static _Thread_local char reason[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
-    va_end(arguments);
-    return reason;
-}
 
 /* ---- Headers ---- */
 
